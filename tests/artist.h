@@ -115,6 +115,13 @@ class Artist {
     });
     return mask;
   }
+  // A point on the screen that lies as deep inside of the object as any, by steps of 4 viewport pixels.
+  glm::vec2 inside(const Labels& labels) {
+    Mask deep = shown(labels);
+    for (Mask next = eroded(deep, 4); count(next) > 0; next = eroded(deep, 4)) deep = std::move(next);
+    const auto at = std::ranges::find(deep.pixels(), kMaskObject) - deep.pixels().begin();
+    return on_screen(glm::vec2(at % deep.width(), at / deep.width()) + 0.5f);
+  }
   // The point on the screen that is `away` or more viewport pixels from the object, the nearest to it.
   glm::vec2 beside(const Labels& labels, int away) {
     const Mask object = shown(labels), near = dilated(object, away), far = dilated(object, away + 3);

@@ -40,11 +40,16 @@ inline Stroke rest(float x) {
   return click({x, 5}, SeedLabel::kRest);
 }
 
-inline Labels selected(const Strokes& strokes, int part_step = 0,
-                       const SelectionModel& model = borders_alone()) {
+// The stroke in another size than its own.
+inline Stroke sized(Stroke stroke, int step) {
+  stroke.size_step = step;
+  return stroke;
+}
+
+inline Labels selected(const Strokes& strokes, const SelectionModel& model = borders_alone()) {
   const PartHierarchy parts = four_leaves();
   const LeafView view = stripes(parts);
-  ClickSelection selection(parts, model, part_step);
+  ClickSelection selection(parts, model);
   for (const Stroke& stroke : strokes) selection.apply(view, stroke);
   return selection.labels();
 }

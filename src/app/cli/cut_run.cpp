@@ -66,7 +66,8 @@ std::vector<CutObject> objects_of(const CutArguments& args, const ObjectInput& i
   std::vector<CutObject> objects = objects_of(input.objects, *chosen, args.camera);
   if (objects.empty()) objects.push_back({{}, std::move(request), chosen->camera, {}});
   for (CutObject& object : objects) {
-    object.request.part_step = args.scale;
+    if (Stroke* first = first_stroke(&object.request.strokes); first && args.scale != 0)
+      first->size_step = args.scale;
     if (args.choice) object.request.choice = *args.choice - 1;
     check_inside(object.request);
   }
@@ -122,7 +123,7 @@ void CutArguments::add_to(CLI::App& command) {
   command
       .add_option("--scale", scale,
                   "Next larger (+1, +2, ...) or smaller (-1, ...) part for the first click or box")
-      ->check(CLI::Range(-100, 100))
+      ->check(CLI::Range(-kMostSizeSteps, kMostSizeSteps))
       ->excludes("--mask")
       ->excludes("--masks")
       ->excludes("--text");

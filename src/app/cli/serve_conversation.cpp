@@ -91,10 +91,12 @@ nlohmann::json Conversation::answer(const nlohmann::json& request, const Job& jo
       return stroke(strokes_from_json({{"boxes", {request}}}, kind.name), job);
     case Ask::kSize:
       object();
-      return step({{}, steps_.back().choice, request.at("step")}, job);
+      if (result_->sizes == 0)
+        throw Error("size", "the last stroke has no other sizes", "Only a click has, and the first stroke");
+      return step({.size = request.at("step")}, job);
     case Ask::kChoice:
       object();
-      return step({{}, choice_from_json(request, kind.name), 0}, job);
+      return step({.choice = choice_from_json(request, kind.name)}, job);
     case Ask::kUndo:
       return undo(job);
     case Ask::kPreview:
@@ -185,8 +187,11 @@ nlohmann::json Conversation::set(const RequestKind& kind, const nlohmann::json& 
 CutRequest Conversation::request_of(const std::vector<Step>& steps) const {
   CutRequest request;
   for (const Step& step : steps) {
-    request.choice = step.choice;
-    request.part_step = step.size;
+    if (step.choice) {
+      request.choice = *step.choice;
+      first_stroke(&request.strokes)->size_step = 0;
+    }
+    if (step.size) last_stroke(&request.strokes)->size_step = *step.size;
     if (!step.stroke) continue;
     if (!request.strokes.empty() && same_view(request.strokes.back().camera, step.stroke->camera))
       request.strokes.back().strokes.push_back(step.stroke->strokes.front());
@@ -208,9 +213,7 @@ void Conversation::cut(std::vector<Step> steps, const CutSettings& settings, con
 }
 
 nlohmann::json Conversation::stroke(const Strokes& strokes, const Job& job) {
-  Step made{StrokedView{opened().chosen.camera, strokes}};
-  if (!steps_.empty()) std::tie(made.choice, made.size) = std::pair(steps_.back().choice, steps_.back().size);
-  return step(std::move(made), job);
+  return step({.stroke = StrokedView{opened().chosen.camera, strokes}}, job);
 }
 
 nlohmann::json Conversation::step(Step made, const Job& job) {

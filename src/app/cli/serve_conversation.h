@@ -33,10 +33,10 @@ class Conversation {
     CutSettings settings;
     Drawer drawer();
   };
-  // One step: a stroke, or another size or choice of the first click.
+  // One step: a stroke, another choice of the first one, or another size of the last one.
   struct Step {
-    std::optional<StrokedView> stroke;
-    int choice = 0, size = 0;  // from here on
+    std::optional<StrokedView> stroke{};
+    std::optional<int> choice{}, size{};
   };
 
   nlohmann::json open(const nlohmann::json& request, const Job& job);

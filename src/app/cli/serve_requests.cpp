@@ -24,7 +24,8 @@ const RequestField kReplaces{"overwrite", kSwitch, false, "A file of that name i
 const RequestField kLabel{
     "label", kText, false, "Whether it marks the object (default) or the rest", {"object", "rest"}};
 constexpr const char* kObjectReply =
-    "gaussians of the object; size, sizes, choice, choices and certainty of the first click; doubts, "
+    "gaussians of the object; choice, choices and certainty of the first click; size and sizes of the last "
+    "one; doubts, "
     "sentences";
 
 const std::vector<RequestKind>& kinds() {
@@ -69,8 +70,8 @@ const std::vector<RequestKind>& kinds() {
        kObjectReply},
       {Ask::kSize,
        "size",
-       "Takes a larger or smaller part for the first click",
-       {{"step", kWhole, true, "0 the likeliest, 1 the next larger, -1 the next smaller, ..."}},
+       "Takes a larger or smaller part for the last click, or for the first box",
+       {{"step", kWhole, true, "0 what it takes by itself, 1 the next larger, -1 the next smaller, ..."}},
        {},
        kObjectReply},
       {Ask::kChoice,

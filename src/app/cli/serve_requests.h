@@ -13,7 +13,7 @@
 namespace splatcut {
 
 // Version of the requests and replies: a new one where what is here today no longer works.
-inline constexpr int kProtocol = 1;
+inline constexpr int kProtocol = 2;
 
 enum class Ask {
   kOpen,

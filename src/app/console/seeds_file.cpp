@@ -49,6 +49,14 @@ Marked<N> parse_marked(const std::string& option, const std::string& text, const
 
 }  // namespace
 
+int size_step_from_json(const nlohmann::json& stroke, const char* key, const std::string& where) {
+  if (!stroke.contains(key)) return 0;
+  const nlohmann::json& step = stroke.at(key);
+  if (!step.is_number_integer() || step < -kMostSizeSteps || step > kMostSizeSteps)
+    throw Error(where, fmt::format("\"{0}\" is no whole number from -{1} to {1}", key, kMostSizeSteps));
+  return step.get<int>();
+}
+
 void check_stroke(const Stroke& stroke, const std::string& where) {
   constexpr float kFarthestPx = 1e6f;
   if (!(stroke.radius_px > 0 && stroke.radius_px < kFarthestPx))
@@ -69,11 +77,14 @@ Strokes strokes_from_json(const nlohmann::json& seeds, const std::string& where)
           return glm::vec2(p.at(0).get<float>(), p.at(1).get<float>());
         };
         strokes.push_back(box_around(corner(0), corner(1), label_from(b.value("label", "object"), where)));
+        strokes.back().size_step = size_step_from_json(b, "scale", where);
       }
     if (seeds.contains("clicks"))
-      for (const auto& c : seeds.at("clicks"))
+      for (const auto& c : seeds.at("clicks")) {
         strokes.push_back(click({c.at("x").get<float>(), c.at("y").get<float>()},
                                 label_from(c.value("label", "object"), where)));
+        strokes.back().size_step = size_step_from_json(c, "scale", where);
+      }
     if (seeds.contains("scribbles"))
       for (const auto& s : seeds.at("scribbles")) {
         Stroke stroke{label_from(s.value("label", "object"), where), s.value("radius_px", 3.0f), {}};

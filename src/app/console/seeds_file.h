@@ -9,9 +9,15 @@
 
 namespace splatcut {
 
-// {"clicks": [{"x","y","label":"object"|"rest"}], "boxes": [{"label","corners":[[x,y],[x,y]]}],
+// {"clicks": [{"x","y","label":"object"|"rest","scale"}], "boxes":
+// [{"label","corners":[[x,y],[x,y]],"scale"}],
 //  "scribbles": [{"label","radius_px","points":[[x,y],...]}]}. Boxes come first, as clicks correct them.
+//  scale is
+// Stroke::size_step, 0 by default.
 Strokes strokes_from_json(const nlohmann::json& seeds, const std::string& where);
+
+// Stroke::size_step under that key, 0 where there is none. Throws Error where it is no step.
+int size_step_from_json(const nlohmann::json& stroke, const char* key, const std::string& where);
 
 // Throws Error where the radius or a point cannot be one of a picture, and where a box is none.
 void check_stroke(const Stroke& stroke, const std::string& where);

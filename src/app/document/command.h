@@ -169,7 +169,7 @@ struct ShowFloaters {
   static constexpr bool at_once = true;
 };
 struct StepScale {
-  int steps;  // steps to larger (+) or smaller (-) parts of the active object's first click
+  int steps;  // steps to larger (+) or smaller (-) sizes of what the active object's last stroke means
   std::string title() const { return steps > 0 ? "Larger part" : "Smaller part"; }
   friend std::string edit(Document* document, const StepScale& command, const EditContext& context);
 };

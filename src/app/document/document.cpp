@@ -76,7 +76,6 @@ CutRequest cut_request(const Document& document, const ObjectItem& object) {
   request.strokes = object.views;
   request.left_out = object.left_out;
   request.choice = object.choice;
-  request.part_step = object.part_step;
   request.up_world = object.up_world.value_or(document.up_world);
   request.among = object.among;
   return request;

@@ -39,7 +39,6 @@ struct ObjectItem {
   ObjectId within = 0;                // earlier object that this is a part of: no labels outside of it count
   std::vector<StrokedView> views;     // views with their strokes, in the order of the strokes, see CutRequest
   int choice = 0;                     // meaning of the first click that is taken, 0 the likeliest
-  int part_step = 0;                  // number of sizes above (+) or below (-) that meaning's own
   std::vector<Camera> left_out;       // views that do not count, see CutRequest
   std::optional<glm::vec3> up_world;  // up direction at the first stroke; none: the document's
   std::optional<float> smoothness;    // weight of the neighbour term; none: the preset's own

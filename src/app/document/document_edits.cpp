@@ -179,7 +179,7 @@ std::string edit(Document* document, const ClearStrokes&, const EditContext&) {
   if (object.views.empty()) throw Error(object.name, "has no strokes");
   object.views.clear();
   object.left_out.clear();
-  object.choice = object.part_step = 0;
+  object.choice = 0;
   object.cut = nullptr;
   object.cut_key.clear();
   return "Strokes of " + object.name + " cleared";
@@ -316,8 +316,9 @@ std::string edit(Document* document, const StepScale& command, const EditContext
   if (!document->active_object()) throw Error("", "No object is chosen", "Click an object first");
   ObjectItem& object = unlocked(document, document->active);
   if (object.views.empty()) throw Error("", object.name + " has no clicks", "Click on it first");
-  constexpr int kMostSteps = 40;
-  object.part_step = std::clamp(object.part_step + command.steps, -kMostSteps, kMostSteps);
+  Stroke* last = last_stroke(&object.views);
+  if (!last) throw Error("", object.name + " has no clicks on it", "Click on it first");
+  last->size_step = std::clamp(last->size_step + command.steps, -kMostSizeSteps, kMostSizeSteps);
   return fmt::format("A {} part", command.steps > 0 ? "larger" : "smaller");
 }
 
@@ -331,7 +332,7 @@ std::string edit(Document* document, const ChooseMeaning& command, const EditCon
   ObjectItem& object = unlocked(document, document->active);
   if (object.views.empty()) throw Error(object.name, "has no clicks", "Click on it first");
   object.choice = std::clamp(command.choice, 0, kMostMeanings - 1);
-  object.part_step = 0;
+  if (Stroke* first = first_stroke(&object.views)) first->size_step = 0;
   return fmt::format("{}: meaning {} of the {}", object.name, object.choice + 1, first_stroke_word(object));
 }
 

@@ -73,7 +73,8 @@ std::vector<std::shared_ptr<const ObjectKeys>> keys_of(const Document& document,
                                                        const History::Entry& before) {
   std::vector<std::shared_ptr<const ObjectKeys>> keys;
   for (const ObjectItem& object : document.objects) {
-    ObjectKeys made{cut_key(document, object), key_of_first_stroke(cut_request(document, object))};
+    const CutRequest request = cut_request(document, object);
+    ObjectKeys made{cut_key(document, object), key_of_first_stroke(request), key_of_last_stroke(request)};
     const std::size_t place = keys.size();
     const bool known = place < before.keys.size() && *before.keys[place] == made;
     keys.push_back(known ? before.keys[place] : std::make_shared<const ObjectKeys>(std::move(made)));

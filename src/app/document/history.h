@@ -17,11 +17,12 @@
 
 namespace splatcut {
 
-// Keys of an object, as bytes to compare: everything that its labels, and the meanings of its first click,
-// depend on.
+// Keys of an object, as bytes to compare: everything that its labels, the meanings of its first click and the
+// sizes of its last depend on.
 struct ObjectKeys {
   std::string cut;          // cut_key()
   std::string first_click;  // key_of_first_stroke()
+  std::string last_click;   // key_of_last_stroke()
   bool operator==(const ObjectKeys&) const = default;
 };
 

@@ -49,6 +49,7 @@ nlohmann::json session_json(const AnyViewSession& s) {
                       {"y", at.y},
                       {"label", stroke.label == SeedLabel::kObject ? "object" : "rest"},
                       {"obeyed", s.obeyed[i] ? true : false}});
+    if (stroke.size_step != 0) clicks.back()["scale"] = stroke.size_step;
     if (stroke.is_box()) clicks.back()["to"] = {stroke.points_px[1].x, stroke.points_px[1].y};
   }
   return {{"start", s.start},           {"draw", s.draw},
@@ -308,7 +309,8 @@ nlohmann::json any_view_json(const LoadedCase& loaded, const AnyViewOptions& opt
     for (const AnyViewStart& start : starts_of_draw(draw)) {
       steps.next();
       sessions.push_back(any_view_session(world, start, options.clicks,
-                                          {static_cast<std::uint64_t>(draw), options.choices}, silent));
+                                          {static_cast<std::uint64_t>(draw), options.choices, options.sizes},
+                                          silent));
       if (job.cancelled()) return {};
       if (options.on_sheet)
         options.on_sheet(sheet_name(scene.name, sessions.back()),

@@ -32,6 +32,7 @@ struct AnyViewOptions {
   int starts = 0;  // the first so many; 0: all
   bool zoom = false;
   bool choices = false;               // the robot takes what is offered for the first click
+  bool sizes = false;                 // it turns the wheel after each click
   std::optional<float> box_margin{};  // it begins with a box, see FirstStrokes
   int copies = 0;                     // of the scene, for "perturb"
   // Where set, each session's click_sheet(), with a name that serves as a file's.

@@ -288,7 +288,7 @@ void check_any_view(const EvalArguments& args) {
   if (!args.any_view) {
     if (args.robot_asked)
       throw CLI::ArgumentMismatch(
-          "--robot-clicks, --starts, --from-box, --zoom, --choices, --sheets and --perturb go with "
+          "--robot-clicks, --starts, --from-box, --zoom, --choices, --sizes, --sheets and --perturb go with "
           "--any-view");
     return;
   }
@@ -389,6 +389,8 @@ void add_eval_command(CLI::App& program, const CommonOptions& common) {
   command.add_flag(
       "--choices", args->robot.choices,
       "It takes what is offered for its first click where that is better; a choice costs a click");
+  command.add_flag("--sizes", args->robot.sizes,
+                   "It turns the wheel after a click as long as the clicked view gets better by that");
   command
       .add_option(
           "--perturb", args->robot.copies,
@@ -415,8 +417,8 @@ void add_eval_command(CLI::App& program, const CommonOptions& common) {
   command.add_flag("--overwrite", args->overwrite, "Replace existing output");
   command.callback([args, &command, &common] {
     args->clicks_given = command.count("--clicks") > 0;
-    for (const char* option :
-         {"--robot-clicks", "--starts", "--from-box", "--zoom", "--choices", "--sheets", "--perturb"})
+    for (const char* option : {"--robot-clicks", "--starts", "--from-box", "--zoom", "--choices", "--sizes",
+                               "--sheets", "--perturb"})
       args->robot_asked |= command.count(option) > 0;
     run_eval(*args, common);
   });

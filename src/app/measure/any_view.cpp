@@ -91,6 +91,38 @@ int better_meaning(const AnyViewWorld& world, const Camera& clicked, const std::
   return best;
 }
 
+// Turns the wheel after the last click as long as the clicked view gets better by it.
+CutAnswer best_size(const AnyViewWorld& world, AnyViewSession* session, CutAnswer answer, const Job& job) {
+  constexpr double kWorthANotch = 0.002;
+  constexpr int kMostNotches = 6;
+  ViewClick& last = session->clicks.back();
+  const auto view = std::ranges::find_if(
+      world.views, [&](const TruthView& v) { return same_camera(v.camera, last.camera); });
+  if (view == world.views.end()) return answer;
+  const auto agrees = [&](const CutAnswer& a) {
+    return iou(world.picture(view->camera, a.labels), view->truth);
+  };
+  double best = agrees(answer);
+  for (const int direction : {1, -1}) {
+    const int before = last.stroke.size_step;
+    for (int step = direction; std::abs(step) <= kMostNotches; step += direction) {
+      const int kept = last.stroke.size_step;
+      last.stroke.size_step = step;
+      CutAnswer other = world.cut(session->clicks, session->choice, job);
+      if (job.cancelled()) return answer;
+      const double found = agrees(other);
+      if (found < best + kWorthANotch) {
+        last.stroke.size_step = kept;
+        break;
+      }
+      best = found;
+      answer = std::move(other);
+    }
+    if (last.stroke.size_step != before) break;
+  }
+  return answer;
+}
+
 template <class T>
 std::shared_ptr<const T> borrowed(const T* value) {
   return {std::shared_ptr<void>(), value};
@@ -131,12 +163,15 @@ AnyViewSession any_view_session(const AnyViewWorld& world, const AnyViewStart& s
     if (i > 0) next = next_click(world, shown, draw_of(hand.draw, static_cast<std::size_t>(i)));
     if (i == 1 && next && hand.choices) session.choice = better_meaning(world, start.camera, meanings);
     const bool chooses = i == 1 && session.choice > 0;
+    if (chooses) session.clicks.front().stroke.size_step = 0;
     if (next) {
       if (!chooses) session.clicks.push_back(*next);
       const auto began = Clock::now();
       CutAnswer answer = world.cut(session.clicks, session.choice, job);
       ms += std::chrono::duration<double, std::milli>(Clock::now() - began).count();
       ++cuts;
+      if (job.cancelled()) break;
+      if (hand.sizes && !chooses) answer = best_size(world, &session, std::move(answer), job);
       if (job.cancelled()) break;
       shown = pictures(world, answer.labels);
       meanings = std::move(answer.meanings);

@@ -10,7 +10,9 @@
 // Interactive Object Selection, 2016, over several views. Cost: one cut and one picture a view each click.
 // Cancelled: incomplete, must not be used. With choices: where the program offers other meanings of the first
 // click, the robot looks at them as a person does, in the clicked view alone, and takes the one whose IoU
-// with that view's truth is the highest and at least .05 above the likeliest's. That costs a click.
+// with that view's truth is the highest and at least .05 above the likeliest's. That costs a click. With
+// sizes, it turns the wheel after each click, up and else down, as long as that view's IoU gains at least
+// .002 by it. That costs none.
 #pragma once
 
 #include <cstdint>
@@ -76,6 +78,7 @@ struct AnyViewSession {
 struct AnyViewHand {
   std::uint64_t draw = 0;  // 0: a steady one
   bool choices = false;    // takes what is offered
+  bool sizes = false;      // turns the wheel after a click
 };
 AnyViewSession any_view_session(const AnyViewWorld& world, const AnyViewStart& start, int clicks,
                                 const AnyViewHand& hand = {}, const Job& job = {});

@@ -32,7 +32,7 @@ class Selections {
   const ClickSelection& after(std::span<const ViewClick> clicks, int choice) {
     const bool continued = clicks.size() == applied_ + 1 && applied_ > 0 && choice == choice_;
     if (!continued) {
-      selection_ = std::make_unique<ClickSelection>(scene_.parts, model_, 0, choice);
+      selection_ = std::make_unique<ClickSelection>(scene_.parts, model_, choice);
       choice_ = choice;
       applied_ = 0;
     }

@@ -169,28 +169,42 @@ std::vector<ViewCard> in_places_of(const std::vector<ViewCard>& before, std::vec
   return out;
 }
 
-std::shared_ptr<const ClickMeanings> meanings_of(const CutRequest& request, const CutResult& result) {
-  if (result.meanings.empty()) return nullptr;
-  ClickMeanings out{.key = key_of_first_stroke(request),
-                    .choice = request.choice,
-                    .sizes = result.sizes,
-                    .likeliest_size = result.likeliest_size,
-                    .size = result.size,
-                    .camera = {},
-                    .outlines = {},
-                    .size_outlines = {}};
-  const auto first = std::ranges::find_if(request.strokes, marks_object);
-  if (first != request.strokes.end()) out.camera = first->camera;
-  const auto in_camera = [&](const Mask& mask) {
-    Borders borders = outlines(mask);
-    const float factor = static_cast<float>(out.camera.width_px) / static_cast<float>(mask.width());
-    for (auto& border : borders)
+namespace {
+
+// The view that holds the stroke; null: none is given.
+const StrokedView* view_of(const CutRequest& request, const Stroke* stroke) {
+  for (const StrokedView& view : request.strokes)
+    for (const Stroke& own : view.strokes)
+      if (&own == stroke) return &view;
+  return nullptr;
+}
+
+std::vector<Borders> borders_in(const Camera& camera, const std::vector<Mask>& masks) {
+  std::vector<Borders> all;
+  for (const Mask& mask : masks) {
+    all.push_back(outlines(mask));
+    const float factor = static_cast<float>(camera.width_px) / static_cast<float>(mask.width());
+    for (auto& border : all.back())
       for (glm::vec2& point : border) point *= factor;
-    return borders;
-  };
-  for (const Mask& mask : result.meanings) out.outlines.push_back(in_camera(mask));
-  for (const Mask& mask : result.size_masks) out.size_outlines.push_back(in_camera(mask));
-  return std::make_shared<const ClickMeanings>(std::move(out));
+  }
+  return all;
+}
+
+}  // namespace
+
+std::shared_ptr<const ClickMeanings> meanings_of(const CutRequest& request, const CutResult& result) {
+  const StrokedView* first = view_of(request, first_stroke(request.strokes));
+  if (result.meanings.empty() || !first) return nullptr;
+  return std::make_shared<const ClickMeanings>(
+      ClickMeanings{key_of_first_stroke(request), first->camera, borders_in(first->camera, result.meanings)});
+}
+
+std::shared_ptr<const StrokeSizes> sizes_of(const CutRequest& request, const CutResult& result) {
+  const StrokedView* last = view_of(request, last_stroke(request.strokes));
+  if (result.size_masks.empty() || !last) return nullptr;
+  return std::make_shared<const StrokeSizes>(StrokeSizes{key_of_last_stroke(request), result.size,
+                                                         result.likeliest_size, last->camera,
+                                                         borders_in(last->camera, result.size_masks)});
 }
 
 }  // namespace splatcut

@@ -36,4 +36,7 @@ std::vector<ViewCard> in_places_of(const std::vector<ViewCard>& before, std::vec
 // Meanings of the first click, with outlines; null if the result has none yet.
 std::shared_ptr<const ClickMeanings> meanings_of(const CutRequest& request, const CutResult& result);
 
+// Sizes of the last stroke, with outlines; null if it has none.
+std::shared_ptr<const StrokeSizes> sizes_of(const CutRequest& request, const CutResult& result);
+
 }  // namespace splatcut

@@ -1,4 +1,5 @@
-// One cut as the window knows it: its times, views and doubts, and the meanings of its first click.
+// One cut as the window knows it: its times, views and doubts, the meanings of its first click and the sizes
+// of its last.
 #pragma once
 
 #include <memory>
@@ -28,13 +29,18 @@ using Borders = std::vector<std::vector<glm::vec2>>;  // closed lines
 
 // The meanings of an object's first click, once a cut has found them.
 struct ClickMeanings {
-  std::string key;                            // key of that click, see key_of_first_stroke()
-  int choice = 0;                             // meaning that the sizes belong to
-  std::size_t sizes = 0, likeliest_size = 0;  // number of sizes, and the size that a click takes by itself
-  std::size_t size = 0;                       // size taken now
-  Camera camera;                              // camera of the click
-  // Borders of each meaning and of each size, in the camera's pixels.
-  std::vector<Borders> outlines, size_outlines;
+  std::string key;                // key of that click, see key_of_first_stroke()
+  Camera camera;                  // camera of the click
+  std::vector<Borders> outlines;  // borders of each meaning, in the camera's pixels
+};
+
+// The sizes of what an object's last stroke means, once a cut has found them, from small to large.
+struct StrokeSizes {
+  std::string key;                      // key of the strokes, see key_of_last_stroke()
+  std::size_t size = 0, likeliest = 0;  // size taken now, and that at step 0
+  Camera camera;                        // camera of the stroke
+  std::vector<Borders> outlines;        // borders of each size, in the camera's pixels: at least one
+  std::size_t count() const { return outlines.size(); }
 };
 
 // A finished cut, or the running one.
@@ -49,6 +55,7 @@ struct CutRun {
   Flags preview;                 // labels so far; null once the cut is done
   double first_mask_ms = 0, total_ms = 0;
   std::shared_ptr<const ClickMeanings> meanings;  // meanings of the first click; null: not known yet
+  std::shared_ptr<const StrokeSizes> sizes;       // sizes of the last stroke; null: not known, or it has none
   bool changed_nothing = false;  // true: the last stroke left the labels as they were, which was said
   // Doubts about the result, one sentence each; once pictures of its sides are there, one on those.
   std::vector<std::string> doubts;

@@ -1,5 +1,5 @@
-// The sizes that a click can have. Those beside the one that it has are shown for a while, so that a person
-// sees what the wheel offers; the one that was asked for is shown until it is computed.
+// The sizes that the last click can have. Those beside the one that it has are shown for a while, so that a
+// person sees what the wheel offers; the one that was asked for is shown until it is computed.
 #include <algorithm>
 
 #include "app/studio/clicks.h"
@@ -24,43 +24,43 @@ float Clicks::sizes_opacity() const {
   return static_cast<float>(std::clamp(1 - (since_s - kShownSeconds) / kFadeSeconds, 0.0, 1.0));
 }
 
-const ClickMeanings* Clicks::known_sizes() const {
+const StrokeSizes* Clicks::known_sizes() const {
   const ObjectItem* object = ws_.document().active_object();
-  const ClickMeanings* known = object ? meanings(*object) : nullptr;
-  return known && known->choice == object->choice && !known->size_outlines.empty() ? known : nullptr;
+  const CutRun* run = object ? cuts_.run(object->id) : nullptr;
+  if (!run || !run->sizes) return nullptr;
+  return run->sizes->key == ws_.history.keys(*object).last_click ? run->sizes.get() : nullptr;
 }
 
 std::size_t Clicks::size_wanted() const {
-  const ClickMeanings* known = known_sizes();
+  const StrokeSizes* known = known_sizes();
   if (!known) return 0;
-  const auto wanted =
-      static_cast<std::ptrdiff_t>(known->likeliest_size) + ws_.document().active_object()->part_step;
+  const Stroke* last = last_stroke(ws_.document().active_object()->views);
+  const auto wanted = static_cast<std::ptrdiff_t>(known->likeliest) + last->size_step;
   return static_cast<std::size_t>(
-      std::clamp<std::ptrdiff_t>(wanted, 0, static_cast<std::ptrdiff_t>(known->sizes) - 1));
+      std::clamp<std::ptrdiff_t>(wanted, 0, static_cast<std::ptrdiff_t>(known->count()) - 1));
 }
 
-// As long as the object has that click alone; the larger one first, as what was clicked is more often too
-// small.
+// The larger one first, as what was clicked is more often too small.
 void Clicks::cut_sizes_ahead() {
   const ObjectItem* object = ws_.document().active_object();
-  const ClickMeanings* known = known_sizes();
-  if (!known || object->locked || stroke_count(*object) != 1 || ws_.tools.dragging() || !viewport_.idle())
-    return;
+  const StrokeSizes* known = known_sizes();
+  if (!known || object->locked || ws_.tools.dragging() || !viewport_.idle()) return;
   const std::size_t size = size_wanted();
+  const int step = static_cast<int>(size) - static_cast<int>(known->likeliest);
   std::vector<int> steps;
-  if (size + 1 < known->sizes) steps.push_back(1);
-  if (size > 0) steps.push_back(-1);
+  if (size + 1 < known->count()) steps.push_back(step + 1);
+  if (size > 0) steps.push_back(step - 1);
   cuts_.cut_ahead(steps);
 }
 
 // Nothing while other meanings of the click are offered and the wheel was not turned: one question at a time.
-const ClickMeanings* Clicks::sizes() const {
+const StrokeSizes* Clicks::sizes() const {
   const ObjectItem* object = ws_.document().active_object();
   if (!object || object->locked || ws_.view.display != DisplayMode::kWhole || ws_.view.heat ||
       ws_.gaussians_of(object->id) == 0 || sizes_opacity() <= 0)
     return nullptr;
-  const ClickMeanings* known = known_sizes();
-  if (!known || known->sizes < 2 || (object->part_step == 0 && offer())) return nullptr;
+  const StrokeSizes* known = known_sizes();
+  if (!known || known->count() < 2 || (last_stroke(object->views)->size_step == 0 && offer())) return nullptr;
   return known;
 }
 

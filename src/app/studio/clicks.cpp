@@ -78,6 +78,7 @@ void Clicks::perform(const AddStroke& c) {
   // The view turns around what was clicked; around the object as long as that is alone.
   if (on && ws_.view.display == DisplayMode::kWhole && c.stroke.is_click() && viewport_.panes() == 1)
     viewport_.camera().set_orbit_centre(on->position_world);
+  if (!held.empty() || !any_mark(*after.active_object())) ws_.tools.disarm_scale();
   edits_.push(c.title(), std::move(after), {}, held.empty() ? message : held);
 }
 
@@ -136,17 +137,25 @@ std::string Clicks::why_no_meanings() const {
   return hidden ? "What else the click can mean is shown in the whole scene (Shift+H)" : "";
 }
 
-// A refusal if the first click has no part that many sizes larger, as far as is known; else empty.
+// A refusal if the last click has no part that many sizes larger, as far as is known; else empty.
 std::string Clicks::why_not_step(int steps) const {
   const ObjectItem* object = ws_.document().active_object();
   if (!object || !any_mark(*object)) return "Click an object first";
-  const ClickMeanings* known = known_sizes();
-  if (!known) return {};
-  const std::size_t size = size_wanted(), last = known->sizes - 1;
+  const StrokeSizes* known = known_sizes();
+  if (!known) {
+    const Stroke* last = last_stroke(object->views);
+    const bool may_have = last->is_click() || last == first_stroke(object->views);
+    const bool settled = !cuts_.comes(*object) && cuts_.run(object->id);
+    return may_have && !settled ? ""
+           : may_have           ? "That click changed nothing that has another size"
+                                : "Only a click has sizes, and what began the object";
+  }
+  const std::size_t size = size_wanted(), last = known->count() - 1;
   if (last == 0) return "The click means one size alone";
   if (steps > 0 && size >= last)
-    return fmt::format("This is the largest of {} sizes; a box (4) may find more", known->sizes);
-  if (steps < 0 && size == 0) return fmt::format("This is the smallest of {} sizes", known->sizes);
+    return fmt::format("This is the largest of {} sizes{}", known->count(),
+                       stroke_count(*object) == 1 ? "; a box (4) may find more" : "");
+  if (steps < 0 && size == 0) return fmt::format("This is the smallest of {} sizes", known->count());
   return {};
 }
 
@@ -155,10 +164,10 @@ void Clicks::perform(const StepScale& c) {
   const std::string reason = why_not_step(c.steps);
   if (!reason.empty()) throw Error("", reason);
   Document after = ws_.document();
-  const ClickMeanings* known = known_sizes();
+  const StrokeSizes* known = known_sizes();
   const auto limit = [&] {  // steps made before the sizes were known
-    const auto likeliest = static_cast<int>(known->likeliest_size), sizes = static_cast<int>(known->sizes);
-    int& step = after.find(after.active)->part_step;
+    const auto likeliest = static_cast<int>(known->likeliest), sizes = static_cast<int>(known->count());
+    int& step = last_stroke(&after.find(after.active)->views)->size_step;
     step = std::clamp(step, -likeliest, sizes - 1 - likeliest);
   };
   if (known) limit();

@@ -34,17 +34,17 @@ class Clicks {
   bool chooses_by(int key) const;
   std::string why_not_choose(int key) const;
   bool decline_offer();  // withdraws the offer, also one that is hidden; returns false if none was shown
-  // Sizes that the active object's first click can have; null: they are not known. size_wanted(): the one
-  // that the document asks for, which ClickMeanings::size becomes once it is computed.
-  const ClickMeanings* known_sizes() const;
+  // Sizes that the active object's last click can have; null: they are not known, or it has none.
+  // size_wanted(): the one that the document asks for, which StrokeSizes::size becomes once it is computed.
+  const StrokeSizes* known_sizes() const;
   std::size_t size_wanted() const;
   // The same for a while after a click or a step of the wheel, when the size wanted and those next to it
   // show; null: none show.
-  const ClickMeanings* sizes() const;
+  const StrokeSizes* sizes() const;
   float sizes_opacity() const;  // opacity of sizes(), which falls from 1 to 0
   // True if the active object's clicks found nothing, mostly because they were made from too far away.
   bool found_nothing() const;
-  // Returns a refusal if the first click is known to have no part that many sizes larger; else empty.
+  // Returns a refusal if the last click is known to have no part that many sizes larger; else empty.
   std::string why_not_step(int steps) const;
 
   void perform(const AddStroke& c);

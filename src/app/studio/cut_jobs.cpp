@@ -171,6 +171,7 @@ void CutJobs::start(const ObjectItem& object, bool anew) {
     run.views = before->views;
     run.views_of_before = !run.views.empty();
     run.meanings = before->meanings;
+    run.sizes = before->sizes;
   }
   running_ = Known{object.id, std::move(run)};
   // If the labels have arrived already, only pictures or the heat map failed: the cut stands.
@@ -204,13 +205,13 @@ bool CutJobs::take_known(const Order& order) {
   return true;
 }
 
-void CutJobs::cut_ahead(std::span<const int> steps) {
+void CutJobs::cut_ahead(std::span<const int> size_steps) {
   const ObjectItem* object = ws_.document().active_object();
   if (!object || running_ || ahead_serial_ == ws_.history.serial() || !ws_.tasks.idle()) return;
   std::vector<Order> wanted;
-  for (const int step : steps) {
+  for (const int step : size_steps) {
     ObjectItem other = *object;
-    other.part_step += step;
+    last_stroke(&other.views)->size_step = step;
     wanted.push_back(order_for(other));
   }
   const auto is_of = [](const Known& k, const Order& o) {
@@ -255,6 +256,7 @@ CutRun CutJobs::cut_of(const Order& order, const Job& job, const OnSnapshot& on_
   done.result = result;
   done.total_ms = ms_since(start);
   done.meanings = meanings_of(order.request, *result);
+  done.sizes = sizes_of(order.request, *result);
   done.doubts = doubts_of(*result);
   return done;
 }
@@ -267,7 +269,10 @@ void CutJobs::work(const Order& order, const Job& job) {
     if (result.labels.empty()) return;
     const double first_mask_ms = shown == 0 ? ms_since(start) : 0;
     CutRun so_far;
-    if (shown == 0) so_far.meanings = meanings_of(order.request, result);
+    if (shown == 0) {
+      so_far.meanings = meanings_of(order.request, result);
+      so_far.sizes = sizes_of(order.request, result);
+    }
     for (; shown < result.views.size(); ++shown)
       so_far.views.push_back(mask_card(result.views[shown], order.colour));
     so_far.stages = result.stages;
@@ -305,6 +310,7 @@ void CutJobs::show_snapshot(const Order& order, CutRun so_far, double first_mask
   if (first_mask_ms > 0) {
     now.first_mask_ms = first_mask_ms;
     now.meanings = std::move(so_far.meanings);
+    now.sizes = std::move(so_far.sizes);
   }
   for (ViewCard& card : so_far.views) {
     if (now.views_of_before) break;  // a strip that empties and fills again would be all that one sees
@@ -367,12 +373,15 @@ void CutJobs::finish(const Order& order, CutRun run, const Flags& labels) {
   const std::string box =
       *before == *labels_now() ? "" : added_by_box(ws_.history, order.object, ws_.context());
   const std::string shared = box + shared_with(ws_, order.object);
-  const bool offers_sizes = unsure(*result) && ws_.tools.scale_armed();
+  const bool turns = ws_.tools.scale_armed();  // the wheel takes another size
+  const bool corrects =
+      result->sizes > 1 && first_stroke(order.request.strokes) != last_stroke(order.request.strokes);
   ws_.say(doubt.empty() ? Message::Kind::kDone : Message::Kind::kInfo,
           fmt::format("{}: {}{}{}", name, changed, shared,
-                      !doubt.empty() ? ". But " + doubt
-                      : offers_sizes ? ". Not all of it? Turn the wheel for another size"
-                                     : ""));
+                      !doubt.empty()             ? ". But " + doubt
+                      : turns && corrects        ? ". Too much or too little? Turn the wheel"
+                      : turns && unsure(*result) ? ". Not all of it? Turn the wheel for another size"
+                                                 : ""));
 }
 
 // The first doubt that was not said after the cut before. What is doubted of a click is said each time.

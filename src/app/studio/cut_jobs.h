@@ -39,11 +39,11 @@ class CutJobs {
   // it up: update() does not start it again. They return false if it does not run.
   bool cancel();
   bool cancel_likelihood();
-  // Cuts the active object at other sizes of its first click, so many above its own (or below: negative),
-  // where they are not known yet and no large part of the scene has to be prepared for them: one at a time
-  // while the worker has nothing else to do. What was asked for
-  // last is kept until the document asks for it, which then waits for no cut. Called once a frame at most.
-  void cut_ahead(std::span<const int> steps);
+  // Cuts the active object at other sizes of its last stroke (Stroke::size_step), where they are not known
+  // yet and no large part of the scene has to be prepared for them: one at a time while the worker has
+  // nothing else to do. What was asked for last is kept until the document asks for it, which then waits for
+  // no cut. Called once a frame at most.
+  void cut_ahead(std::span<const int> size_steps);
   void pause();  // stops the running cut; update() starts it again once no scene is being opened
   // Lets update() start a cut again that was given up.
   void want_again(const ObjectItem& object) { given_up_.erase(ws_.history.keys(object).cut); }

@@ -33,6 +33,7 @@ void CutJobs::recall() {
           run.result = result;
           run.stages = result->stages;
           run.meanings = meanings_of(request, *result);
+          run.sizes = sizes_of(request, *result);
           run.doubts = doubts_of(*result);
           run.views = picture_cards(*session, request, settings, *result, colour, job);
           run.views_drawn = true;

@@ -21,7 +21,7 @@ void click_object(ToolHand& hand) {
   Stroke stroke = click(hand.at_px, state.rest() ? SeedLabel::kRest : SeedLabel::kObject);
   stroke.radius_px *= hand.context.pixels_per_point;
   if (!state.modifiers.alt) {
-    state.scale_armed = stroke.label == SeedLabel::kObject;
+    state.scale_armed = true;
     state.scale_at_px = hand.at_px;
   }
   hand.ask_stroke(std::move(stroke));
@@ -42,8 +42,10 @@ constinit const Tool Tool::kClick = {
     .name = "Click an object",
     .key = '2',
     .sentence =
-        "Left click: this is the object. Right click (or Ctrl): this is not. Dragging turns the view.",
-    .hint = "left click: object   right click: rest   Alt: intersect   drag: turn",
+        "Left click: this is the object. Right click (or Ctrl): this is not. The wheel right after it takes "
+        "more or less. Dragging turns the view.",
+    .hint =
+        "left click: object   right click: rest   wheel after it: more or less   Alt: intersect   drag: turn",
     .icon = arrow_with_rays,
     .first_of_group = true,
     .strokes = true,

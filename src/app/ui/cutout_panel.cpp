@@ -37,21 +37,23 @@ void slider_label(const std::string& text) {
   ImGui::SetNextItemWidth(-34);
 }
 
-// A step for each size that the first click can have, the smallest at the left. The picture outlines the step
+// A step for each size that the last click can have, the smallest at the left. The picture outlines the step
 // that the pointer is at; it is taken when the button is let go. While the sizes are not known its place is
 // kept, so that what is below does not move.
 void size_slider(UiContext& ui, const ObjectItem& object) {
   if (object.views.empty()) return;
-  const ClickMeanings* known = ui.studio.clicks().known_sizes();
-  if (!known || known->sizes < 2) {
+  const StrokeSizes* known = ui.studio.clicks().known_sizes();
+  if (!known || known->count() < 2) {
     slider_label(known ? "Part  1 of 1" : "Part");
     ImGui::BeginDisabled();
     int none = 0;
     ImGui::SliderInt("##size", &none, 0, 1, "", ImGuiSliderFlags_NoInput);
     ImGui::EndDisabled();
-    return tooltip(known ? "The click means one size alone" : "Which sizes there are is not known yet");
+    return tooltip(known
+                       ? "The click means one size alone"
+                       : "Sizes of the last click, or of the box that began the object, once they are known");
   }
-  const auto sizes = static_cast<int>(known->sizes),
+  const auto sizes = static_cast<int>(known->count()),
              taken = static_cast<int>(ui.studio.clicks().size_wanted());
   slider_label(fmt::format("Part  {} of {}", taken + 1, sizes));
   ImGui::BeginDisabled(object.locked);
@@ -65,7 +67,7 @@ void size_slider(UiContext& ui, const ObjectItem& object) {
     ui.state.size_pointed = static_cast<std::size_t>(pointed);
   if (ImGui::IsItemDeactivated() && pointed != taken) ui.ask(StepScale{pointed - taken});
   ImGui::EndDisabled();
-  tooltip(pointed == taken ? "The part that the click takes"
+  tooltip(pointed == taken ? "The part that the last click takes"
                            : fmt::format("Take part {} of {}  (wheel after the click, Page Up, Page Down)",
                                          pointed + 1, sizes));
 }

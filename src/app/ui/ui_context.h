@@ -151,7 +151,7 @@ struct UiState {
   TurntableChoice turntable;
   PropertyChoice property;
   std::optional<std::size_t>
-      size_pointed;         // size of the first click whose step the pointer is at in the panel
+      size_pointed;         // size of the last click whose step the pointer is at in the panel
   RingsShown rings[2];      // of each pane
   CentresShown centres[2];  // of each pane
   GridShown grid;

@@ -114,7 +114,8 @@ std::optional<UiRect> offer_line(UiContext& ui, const ImVec2& at, float right) {
   constexpr float kPad = kOfferPad, kButton = kOfferButton;
   const ClickMeanings* offer = ui.studio.clicks().offer();
   const ObjectItem& object = *ui.studio.document().active_object();
-  const int taken = object.part_step == 0 ? object.choice : -1;  // another size is none of them
+  const Stroke* first = first_stroke(object.views);
+  const int taken = first && first->size_step == 0 ? object.choice : -1;  // another size is none of them
   const ImVec2 words = ImGui::CalcTextSize(bar->words), size = vec(bar->rect.size());
   ImDrawList& list = *ImGui::GetWindowDrawList();
   floating_box(ui, at, vec(bar->rect.max));
@@ -178,8 +179,8 @@ std::optional<UiRect> first_run_hint(UiContext& ui, const UiRect& area, float bo
   constexpr std::array<std::pair<const char*, const char*>, 4> kLines = {
       {{"Click", "an object: it is cut out"},
        {"Right-click", "what does not belong to it"},
-       {"Drag", "turns, right drag shifts, the wheel zooms"},
-       {"F1", "shows every key"}}};
+       {"Wheel", "zooms; right after a click: more or less"},
+       {"Drag", "turns, right drag shifts. F1: every key"}}};
   constexpr float kMargin = 14, kPad = 16, kRow = 28, kSecondColumn = 272;
   const bool wide = area.size().x >= 630;  // two columns, or one
   const std::size_t rows = wide ? 2 : 4;

@@ -190,10 +190,10 @@ void draw_offer(const UiContext& ui, const UiRect& area, float bottom, const UiR
 void draw_sizes(const UiContext& ui, const UiRect& area, float bottom, const UiRect& bar) {
   const Clicks& clicks = ui.studio.clicks();
   const std::optional<std::size_t> pointed = ui.state.size_pointed;
-  const ClickMeanings* sizes = pointed ? clicks.known_sizes() : clicks.sizes();
+  const StrokeSizes* sizes = pointed ? clicks.known_sizes() : clicks.sizes();
   const Camera now = ui.studio.viewport().pane_camera();
   if (!sizes || !same_pose(sizes->camera, now)) return;
-  if (pointed && *pointed >= sizes->sizes) return;  // the panel was drawn for another object
+  if (pointed && *pointed >= sizes->count()) return;  // the panel was drawn for another object
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const OnScreen there = placement_of(sizes->camera, now, on_screen(ui, area));
   const UiRect free_area{area.min, {area.max.x, area.max.y - bottom}};
@@ -205,7 +205,7 @@ void draw_sizes(const UiContext& ui, const UiRect& area, float bottom, const UiR
               light = IM_COL32(255, 255, 255, static_cast<int>(215 * opacity));
   const auto draw = [&](std::size_t size, const char* sign) {
     std::optional<ImVec2> label;
-    for (const std::vector<glm::vec2>& border : sizes->size_outlines[size]) {
+    for (const std::vector<glm::vec2>& border : sizes->outlines[size]) {
       const std::vector<ImVec2> path = rounded(placed(border, there));
       if (sign) {
         dashed(list, path, dark, 3);
@@ -223,7 +223,7 @@ void draw_sizes(const UiContext& ui, const UiRect& area, float bottom, const UiR
   const std::size_t size = pointed.value_or(clicks.size_wanted());
   if (pointed || size != sizes->size) draw(size, nullptr);
   if (pointed) return;
-  if (size + 1 < sizes->sizes) draw(size + 1, "+");
+  if (size + 1 < sizes->count()) draw(size + 1, "+");
   if (size > 0) draw(size - 1, "-");
 }
 

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "app/console/seeds_file.h"
 #include "app/work/work_values.h"
 #include "core/error.h"
 
@@ -31,7 +32,6 @@ json object_json(const Document& document, const ObjectItem& o, const WriteFlags
               {"within", o.within},
               {"views", views},
               {"choice", o.choice},
-              {"part_step", o.part_step},
               {"left_out", left_out},
               {"cut", flags(o.cut)},
               {"cut_is_current", o.cut != nullptr && !is_stale(document, o)},
@@ -58,7 +58,8 @@ ObjectItem object_from(const json& j, const ReadFlags& flags) {
     o.views.push_back({camera_from(view.at("camera")), strokes_from(view.at("strokes")),
                        flags(view.value("seen", json()), 1)});
   o.choice = j.value("choice", 0);
-  o.part_step = j.value("part_step", 0);
+  if (Stroke* first = first_stroke(&o.views); first && j.contains("part_step"))  // until version 8
+    first->size_step = size_step_from_json(j, "part_step", "object");
   for (const json& camera : j.value("left_out", json::array())) o.left_out.push_back(camera_from(camera));
   if (j.contains("up")) o.up_world = direction_from(j.at("up"));
   if (j.contains("smoothness")) o.smoothness = j.at("smoothness").get<float>();

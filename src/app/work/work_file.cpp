@@ -20,9 +20,10 @@ namespace {
 using nlohmann::json;
 
 // Version 7: the scene's hash is XXH3. Version 8: what an object leaves to others; a program that knew
-// nothing of it would give objects Gaussians that they do not have. All of version 7 means the same in
-// version 8.
-constexpr int kOldest = 7, kVersion = 8;
+// nothing of it would give objects Gaussians that they do not have. Version 9: every stroke has its size;
+// until then objects had a "part_step", that of their first stroke. Else all of version 7 means the same in
+// version 9.
+constexpr int kOldest = 7, kVersion = 9;
 
 json parse(const std::filesystem::path& path) {
   std::error_code ignored;

@@ -98,6 +98,7 @@ json strokes_json(const Strokes& strokes) {
     out.push_back({{"kind", s.is_box() ? "box" : "path"},
                    {"label", s.label == SeedLabel::kObject ? "object" : "rest"},
                    {"radius_px", s.radius_px},
+                   {"size_step", s.size_step},
                    {"points", points}});
   }
   return out;
@@ -114,6 +115,7 @@ Strokes strokes_from(const json& j) {
     if (kind != "path" && kind != "box")
       throw Error("stroke", "the kind \"" + kind + "\" is unknown", "Use path or box");
     if (kind == "box") stroke.kind = StrokeKind::kBox;
+    stroke.size_step = size_step_from_json(s, "size_step", "stroke");
     for (const json& p : s.at("points"))
       stroke.points_px.emplace_back(p.at(0).get<float>(), p.at(1).get<float>());
     check_stroke(stroke, "stroke");

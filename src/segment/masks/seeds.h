@@ -16,12 +16,17 @@ enum class SeedLabel : std::uint8_t { kRest, kObject };
 // it on all four sides more or less: two points, any two opposite corners; its radius means nothing.
 enum class StrokeKind : std::uint8_t { kPath, kBox };
 
+inline constexpr int kMostSizeSteps = 100;  // limit of Stroke::size_step, in both directions
+
 // Pixels of the reference view, x right, y down.
 struct Stroke {
   SeedLabel label = SeedLabel::kObject;
   float radius_px = 2;
   std::vector<glm::vec2> points_px;
   StrokeKind kind = StrokeKind::kPath;
+  // Number of sizes above (+) or below (-) what it changes by itself: of clicks, and of an object's first
+  // stroke.
+  int size_step = 0;
 
   bool is_box() const { return kind == StrokeKind::kBox; }
   bool is_click() const { return !is_box() && points_px.size() == 1; }

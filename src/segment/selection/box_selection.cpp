@@ -61,7 +61,9 @@ bool ClickSelection::take_box(const LeafView& view, const Stroke& stroke) {
     choice_taken_ = std::min(static_cast<std::size_t>(std::max(choice_, 0)), meant.size() - 1);
     selected_.meanings = std::make_shared<const std::vector<PartMeaning>>(found);
     selected_.boxed = true;
-    leaves = note_sizes(view, part_sizes(parts_, meant[choice_taken_], found, view.leaf_px));
+    leaves =
+        note_sizes(view, part_sizes(parts_, meant[choice_taken_], found, view.leaf_px), stroke.size_step, {});
+    note_certainty(view, leaves);
   }
   Change change{.leaves = {}, .object = object};
   for (std::uint32_t l = 0; l < parts_.leaves; ++l) {

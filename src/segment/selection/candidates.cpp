@@ -408,9 +408,8 @@ void Asking::measure_off_centre(bool all) {
     }
     best = std::min(best, candidate.cost);
   }
-  if (click_.first)
-    out_.unlikely.assign(out_.candidates.begin() + static_cast<std::ptrdiff_t>(looked_at),
-                         out_.candidates.end());
+  out_.unlikely.assign(out_.candidates.begin() + static_cast<std::ptrdiff_t>(looked_at),
+                       out_.candidates.end());
   out_.candidates.resize(looked_at);
   std::ranges::stable_sort(out_.candidates, {}, &Candidate::cost);
 }

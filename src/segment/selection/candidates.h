@@ -90,7 +90,7 @@ struct Candidate {
 struct Answers {
   std::vector<Chain> chains;
   std::vector<Candidate> candidates;  // candidates, likeliest first
-  std::vector<Candidate> unlikely;    // of a first click, those dropped before kOffCentre was measured
+  std::vector<Candidate> unlikely;    // those dropped before kOffCentre was measured
   std::vector<std::uint8_t> free;     // flags per leaf: 1 if a candidate may change it
 
   // True if the candidate holds the leaf and may change it.

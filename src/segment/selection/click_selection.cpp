@@ -7,6 +7,7 @@
 
 #include "segment/masks/mask_tools.h"
 #include "segment/selection/click_reach.h"
+#include "segment/selection/first_meanings.h"
 #include "segment/selection/region_by_colour.h"
 
 namespace splatcut {
@@ -57,11 +58,9 @@ std::uint32_t leaf_near(const LeafView& view, const glm::vec2& pixel, const auto
 
 }  // namespace
 
-ClickSelection::ClickSelection(const PartHierarchy& parts, const SelectionModel& model, int part_step,
-                               int choice)
+ClickSelection::ClickSelection(const PartHierarchy& parts, const SelectionModel& model, int choice)
     : parts_(parts),
       model_(model),
-      part_step_(part_step),
       choice_(choice),
       selected_{.object = std::vector<std::uint8_t>(parts.leaves, 0),
                 .said = std::vector<std::int8_t>(parts.leaves, 0),
@@ -91,6 +90,10 @@ std::vector<std::uint8_t> ClickSelection::certain_leaves(const LeafView& view,
   return certain;
 }
 
+std::span<const Mask> ClickSelection::size_masks() const {
+  return size_masks_ ? std::span<const Mask>(*size_masks_) : std::span<const Mask>();
+}
+
 std::span<const Mask> ClickSelection::meanings() const {
   return offers_ ? std::span<const Mask>(offers_->masks) : std::span<const Mask>();
 }
@@ -114,7 +117,8 @@ void ClickSelection::note_offers(const LeafView& view, const Answers& found) {
 }
 
 // Notes the meanings and the sizes of the one that is chosen. Returns the leaves of the size that is taken.
-std::vector<std::uint8_t> ClickSelection::first_leaves(const LeafView& view, const Answers& found) {
+std::vector<std::uint8_t> ClickSelection::first_leaves(const LeafView& view, const Answers& found,
+                                                       int size_step) {
   note_offers(view, found);
   choice_taken_ = std::min(static_cast<std::size_t>(std::max(choice_, 0)), offers_->meant.size() - 1);
   const Candidate& chosen = offers_->meant[choice_taken_];
@@ -126,23 +130,81 @@ std::vector<std::uint8_t> ClickSelection::first_leaves(const LeafView& view, con
   add(found.candidates);
   selected_.meanings = std::make_shared<const std::vector<PartMeaning>>(all);
   add(found.unlikely);
-  return note_sizes(view, part_sizes(parts_, leaves_changed(found, chosen), all, view.leaf_px));
+  std::vector<std::uint8_t> taken =
+      note_sizes(view, part_sizes(parts_, leaves_changed(found, chosen), all, view.leaf_px), size_step, {});
+  note_certainty(view, taken);
+  return taken;
 }
 
-// Notes which sizes there are. Returns the leaves of the one that part_step_ asks for.
-std::vector<std::uint8_t> ClickSelection::note_sizes(const LeafView& view, const PartSizes& sizes) {
+void ClickSelection::note_certainty(const LeafView& view, const std::vector<std::uint8_t>& taken) {
+  const bool chosen = choice_taken_ > 0 || size_ != likeliest_size_;
+  certainty_ = chosen ? 1 : certainty_of(parts_, *selected_.meanings, taken, view.leaf_px, selected_.boxed);
+}
+
+void ClickSelection::forget_sizes() {
+  sizes_ = size_ = likeliest_size_ = 0;
+  size_masks_ = nullptr;
+}
+
+void ClickSelection::keep_sizes_of(const ClickSelection& other) {
+  sizes_ = other.sizes_;
+  size_ = other.size_;
+  likeliest_size_ = other.likeliest_size_;
+  size_masks_ = other.size_masks_;
+}
+
+// Notes which sizes there are. Returns the leaves of the one that is that many steps from the one taken.
+std::vector<std::uint8_t> ClickSelection::note_sizes(const LeafView& view, const PartSizes& sizes, int step,
+                                                     const CorrectedPixels& pixels) {
   sizes_ = sizes.count;
   likeliest_size_ = sizes.taken;
-  const auto wanted = static_cast<std::ptrdiff_t>(sizes.taken) + part_step_;
+  const auto wanted = static_cast<std::ptrdiff_t>(sizes.taken) + step;
   size_ = static_cast<std::size_t>(
       std::clamp<std::ptrdiff_t>(wanted, 0, static_cast<std::ptrdiff_t>(sizes.count) - 1));
   std::vector<Mask> masks;
-  for (std::size_t i = 0; i < sizes_; ++i) masks.push_back(shown(view.leaves, view.camera, sizes.leaves(i)));
+  for (std::size_t i = 0; i < sizes_; ++i) {
+    masks.push_back(shown(view.leaves, view.camera, sizes.leaves(i)));
+    for (const std::uint32_t pixel : pixels.spot) masks.back().pixels()[pixel] = kMaskObject;
+    if (i < sizes.taken) continue;
+    for (const std::uint32_t pixel : pixels.by_colour) masks.back().pixels()[pixel] = kMaskObject;
+  }
   size_masks_ = std::make_shared<const std::vector<Mask>>(std::move(masks));
-  std::vector<std::uint8_t> taken = sizes.leaves(size_);
-  const bool chosen = choice_taken_ > 0 || size_ != likeliest_size_;
-  certainty_ = chosen ? 1 : certainty_of(parts_, *selected_.meanings, taken, view.leaf_px, selected_.boxed);
-  return taken;
+  return sizes.leaves(size_);
+}
+
+// Notes the sizes of what a correction changes. meant: what it changes by itself. The smallest size is the
+// spot alone.
+std::vector<std::uint8_t> ClickSelection::corrected_leaves(const Click& click, const Answers& found,
+                                                           const std::vector<std::uint8_t>& meant,
+                                                           const CorrectedPixels& pixels, int size_step) {
+  const LeafView& view = click.view;
+  const auto changes = [&](std::uint32_t l) {
+    return meant[l] || (found.free[l] && (selected_.object[l] != 0) != click.object);
+  };
+  std::vector<float> changed_px(parts_.leaves, 0);
+  for (std::uint32_t l = 0; l < parts_.leaves; ++l)
+    if (changes(l)) changed_px[l] = view.leaf_px[l];
+  std::vector<PartMeaning> all;
+  for (const std::vector<Candidate>* some : {&found.candidates, &found.unlikely})
+    for (const Candidate& c : *some)
+      if (c.index != Candidate::kDiscAlone && found.chains[c.chain].of_tree)
+        all.push_back(
+            {static_cast<std::uint32_t>(c.chain), found.chains[c.chain].nodes[c.index], {}, c.cost});
+  const float spot_px = std::max(static_cast<float>(pixels.spot.size()), kLeastSizePx);
+  PartSizes sizes = part_sizes(parts_, meant, all, changed_px, spot_px);
+  float smallest_px = 0;
+  for (std::uint32_t l = 0; l < parts_.leaves; ++l) {
+    if (!changes(l)) sizes.level[l] = kNoLevel;
+    if (sizes.level[l] == 0) smallest_px += changed_px[l];
+  }
+  if (sizes.taken == 0) smallest_px = std::max(smallest_px, static_cast<float>(pixels.by_colour.size()));
+  if (smallest_px >= kNextSize * spot_px) {
+    ++sizes.count;
+    ++sizes.taken;
+    for (std::uint32_t& level : sizes.level)
+      if (level != kNoLevel) ++level;
+  }
+  return note_sizes(view, sizes, size_step, pixels);
 }
 
 std::vector<std::uint8_t> ClickSelection::leaves_changed(const Answers& found,
@@ -200,17 +262,22 @@ bool ClickSelection::take(const LeafView& view, const glm::vec2& pixel, const St
       const std::vector<std::uint8_t> like = certain_leaves(view, like_px);
       for (std::uint32_t l = 0; l < parts_.leaves; ++l) meant[l] |= like[l] && found.free[l];
     }
+    if (stroke.is_click()) {
+      meant = corrected_leaves(click, found, meant, {certain_px, like_px}, stroke.size_step);
+      if (size_ < likeliest_size_) like_px.clear();
+    }
     if (object) take_back_colour(meant);
     change_leaves(meant, certain, click);
   } else {
     certain[leaf] = 1;
-    change_leaves(first_leaves(view, found), certain, click);
+    change_leaves(first_leaves(view, found, stroke.size_step), certain, click);
   }
   any_ = true;
   label();
   pin(view, certain_px, object);
   if (!like_px.empty()) pin_by_colour(view, like_px);
   insist(view, row_by_row(view.camera, at), object);
+  if (stroke.size_step != 0) spot_alone_ = false;  // as was asked for
   return true;
 }
 
@@ -386,6 +453,7 @@ void ClickSelection::label() {
 bool ClickSelection::apply(const LeafView& view, const Stroke& stroke) {
   const bool object = stroke.label == SeedLabel::kObject;
   if (!any_ && !object) return false;
+  forget_sizes();
   if (stroke.is_box()) return take_box(view, stroke);
   const auto anything = [](std::uint32_t) { return true; };
   bool hit = false;

@@ -11,6 +11,9 @@
 // the least cost, see candidates.h. A leaf follows a correction only if, in at least nearer_majority of the
 // trees, it meets no click of the other sign below its common ancestor with this click.
 //
+// A click's step takes a smaller or a larger size of what it means (part_sizes.h), of a correction of what it
+// changes.
+//
 // A correction may also say that what was said first, click or box, meant another part, one that holds every
 // click on the object and none on the rest: what the trees agree on, or after a click the likeliest if that
 // is a small step from what is shown. If no candidate is likely, only the disc changes.
@@ -44,10 +47,9 @@ inline constexpr int kMostMeanings = 3;  // limit of meanings of a first click t
 
 class ClickSelection {
  public:
-  // choice: number of the meaning of the first stroke to take, 0 the likeliest; see meanings(). part_step:
-  // number of sizes above (+) or below (-) that meaning's own. Both are clamped to what there is. parts must
-  // outlive this.
-  ClickSelection(const PartHierarchy& parts, const SelectionModel& model, int part_step = 0, int choice = 0);
+  // choice: number of the meaning of the first stroke to take, 0 the likeliest; see meanings(). It and
+  // Stroke::size_step are clamped to what there is. parts must outlive this.
+  ClickSelection(const PartHierarchy& parts, const SelectionModel& model, int choice = 0);
 
   // Applies a stroke, given in the view's pixels. Returns false if it hits nothing of the scene, or marks the
   // rest before there is an object.
@@ -65,14 +67,15 @@ class ClickSelection {
   // Sign per Gaussian that a stroke has decided: +1 object, -1 rest; 0: no stroke has.
   const std::vector<std::int8_t>& said() const { return said_; }
 
-  // Sizes of the first stroke's meaning (part_sizes.h): their number, the index of the one taken, and that at
-  // part_step 0.
+  // Sizes of what the last stroke means (part_sizes.h): their number, the index of the one taken, and that at
+  // step 0. A correction's sizes hold what it changes. None: it was a later scribble or box, or a click on
+  // what showed its label already.
   std::size_t sizes() const { return sizes_; }
   std::size_t size() const { return size_; }
   std::size_t likeliest_size() const { return likeliest_size_; }
-  std::span<const Mask> size_masks() const {
-    return *size_masks_;
-  }  // of each size, in the first stroke's view
+  std::span<const Mask> size_masks() const;  // of each size, in that stroke's view
+  // The last stroke was made before one that is in `other` already: its sizes are those to choose from.
+  void keep_sizes_of(const ClickSelection& other);
   // How alike what was taken of the first stroke and all that it can mean are: certainty_of() in its view. 1
   // where another meaning or size was chosen, and before it.
   float certainty() const { return certainty_; }
@@ -98,8 +101,17 @@ class ClickSelection {
   std::vector<std::uint32_t> disc(const Camera& camera, const glm::ivec2& at, float radius_px,
                                   float least_radius_px) const;
   void note_offers(const LeafView& view, const Answers& answers);
-  std::vector<std::uint8_t> first_leaves(const LeafView& view, const Answers& answers);
-  std::vector<std::uint8_t> note_sizes(const LeafView& view, const PartSizes& sizes);
+  std::vector<std::uint8_t> first_leaves(const LeafView& view, const Answers& answers, int size_step);
+  struct CorrectedPixels {
+    std::span<const std::uint32_t> spot, by_colour;  // what a correction of any size, and of its own, changes
+  };
+  void forget_sizes();
+  std::vector<std::uint8_t> note_sizes(const LeafView& view, const PartSizes& sizes, int step,
+                                       const CorrectedPixels& pixels);
+  void note_certainty(const LeafView& view, const std::vector<std::uint8_t>& taken);
+  std::vector<std::uint8_t> corrected_leaves(const Click& click, const Answers& found,
+                                             const std::vector<std::uint8_t>& meant,
+                                             const CorrectedPixels& pixels, int size_step);
   std::vector<std::uint8_t> leaves_changed(const Answers& answers, const Candidate& candidate) const;
   void change_leaves(const std::vector<std::uint8_t>& meant, const std::vector<std::uint8_t>& certain,
                      const Click& click);
@@ -117,14 +129,14 @@ class ClickSelection {
 
   const PartHierarchy& parts_;
   SelectionModel model_;
-  int part_step_, choice_;
+  int choice_;
   SelectedParts selected_;
   struct Offers {
     std::vector<Candidate> meant;
     std::vector<Mask> masks;  // mask of each meaning in the first click's view
   };
   std::shared_ptr<const Offers> offers_;
-  std::shared_ptr<const std::vector<Mask>> size_masks_ = std::make_shared<const std::vector<Mask>>();
+  std::shared_ptr<const std::vector<Mask>> size_masks_;  // null: there are no sizes
   std::vector<std::uint8_t> labels_;
   std::vector<std::int8_t> said_;
   std::vector<std::uint8_t> by_colour_;  // 1 where said_ is so by colour alone

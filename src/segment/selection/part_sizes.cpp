@@ -12,11 +12,9 @@ namespace splatcut {
 
 namespace {
 
-constexpr float kNextSize = 1.2f;   // ratio of pixels that tells two sizes apart
 constexpr float kLargeStep = 1.5f;  // ratio beyond which a part is a step too far
 constexpr float kSameSize = 1.25f;  // ratio of parts among which the cheapest is taken if all are too far
 constexpr float kInside = 0.9f;     // share of the smaller set's pixels that the larger one holds
-constexpr float kLeastSizePx = 1;   // smaller ones cannot be seen
 constexpr std::size_t kMostSizes = 64;
 
 using LeafFlags = std::vector<std::uint8_t>;
@@ -28,8 +26,13 @@ struct NextSize {
 
 class Ladder {
  public:
-  Ladder(const PartHierarchy& parts, std::span<const PartMeaning> meanings, std::span<const float> leaf_px)
-      : parts_(parts), meanings_(meanings), leaf_px_(leaf_px), px_(pixels_of(LeafFlags(parts.leaves, 1))) {}
+  Ladder(const PartHierarchy& parts, std::span<const PartMeaning> meanings, std::span<const float> leaf_px,
+         float least_px)
+      : parts_(parts),
+        meanings_(meanings),
+        leaf_px_(leaf_px),
+        least_px_(least_px),
+        px_(pixels_of(LeafFlags(parts.leaves, 1))) {}
 
   // Sizes beyond the set, from one to the next.
   std::vector<LeafFlags> from(const LeafFlags& set, bool larger) const {
@@ -60,9 +63,9 @@ class Ladder {
     const std::vector<float> common = pixels_of(set);
     std::vector<NextSize> fit;
     for (std::size_t m = 0; m < meanings_.size(); ++m) {
-      const float px = std::max(px_[m], kLeastSizePx), before_px = std::max(set_px, kLeastSizePx);
+      const float px = std::max(px_[m], least_px_), before_px = std::max(set_px, least_px_);
       const float folds = larger ? px / before_px : before_px / px;
-      if (px_[m] >= kLeastSizePx && folds >= kNextSize && common[m] >= kInside * std::min(px, set_px))
+      if (px_[m] >= least_px_ && folds >= kNextSize && common[m] >= kInside * std::min(px, set_px))
         fit.push_back({&meanings_[m], folds});
     }
     if (fit.empty()) return std::nullopt;
@@ -78,6 +81,7 @@ class Ladder {
   const PartHierarchy& parts_;
   std::span<const PartMeaning> meanings_;
   std::span<const float> leaf_px_;
+  float least_px_;
   std::vector<float> px_;  // pixels per meaning
 };
 
@@ -90,8 +94,8 @@ std::vector<std::uint8_t> PartSizes::leaves(std::size_t size) const {
 }
 
 PartSizes part_sizes(const PartHierarchy& parts, std::span<const std::uint8_t> taken,
-                     std::span<const PartMeaning> meanings, std::span<const float> leaf_px) {
-  const Ladder ladder(parts, meanings, leaf_px);
+                     std::span<const PartMeaning> meanings, std::span<const float> leaf_px, float least_px) {
+  const Ladder ladder(parts, meanings, leaf_px, least_px);
   const LeafFlags set(taken.begin(), taken.end());
   std::vector<LeafFlags> sizes = ladder.from(set, false);
   std::ranges::reverse(sizes);

@@ -1,11 +1,13 @@
-// Sizes of what a first stroke takes: smaller and larger sets of leaves around it, each inside the next.
+// Sizes of what a stroke takes: smaller and larger sets of leaves around it, each inside the next.
 //
-// In: the set that is taken, all parts that the stroke can mean with their costs, pixels per leaf in the
-// stroke's view. Out: per leaf, the first size that holds it. From a size of p pixels, the next larger one is
-// the cheapest part, of any tree, of 1.2 p to 1.5 p pixels that holds at least nine tenths of the size,
-// joined with it. If no part is of these pixels, the smallest parts above them take their place. Smaller
-// sizes are found the same way downwards and cut with the size above. So sizes are nested whichever trees
-// they come from. Cost: a pass over the nodes of all trees for each size, of which there are about fifteen.
+// In: the set that is taken (of a correction: that changes), all parts that the stroke can mean with their
+// costs, pixels per leaf in the stroke's view (of a correction: of what it may change). Out: per leaf, the
+// first size that holds it. From a size of p pixels, the next larger one is the cheapest part, of any tree,
+// of 1.2 p to 1.5 p pixels that holds at least nine tenths of the size, joined with it. If no part is of
+// these pixels, the smallest parts above them take their place. Smaller sizes are found the same way
+// downwards and cut with the size above. So sizes are nested whichever trees they come from. No size is found
+// below a given number of pixels, for which the set counts if it has fewer. Cost: a pass over the nodes of
+// all trees for each size, of which there are about fifteen.
 #pragma once
 
 #include <cstdint>
@@ -25,8 +27,13 @@ struct PartSizes {
   std::vector<std::uint8_t> leaves(std::size_t size) const;
 };
 
-// taken: flags per leaf. meanings: parts with their costs, in any order. leaf_px: pixels per leaf.
+inline constexpr float kLeastSizePx = 1;  // smaller sizes cannot be seen
+inline constexpr float kNextSize = 1.2f;  // ratio of pixels that tells two sizes apart
+
+// taken: flags per leaf. meanings: parts with their costs, in any order. leaf_px: pixels per leaf. least_px:
+// at least kLeastSizePx.
 PartSizes part_sizes(const PartHierarchy& parts, std::span<const std::uint8_t> taken,
-                     std::span<const PartMeaning> meanings, std::span<const float> leaf_px);
+                     std::span<const PartMeaning> meanings, std::span<const float> leaf_px,
+                     float least_px = kLeastSizePx);
 
 }  // namespace splatcut

@@ -13,7 +13,8 @@ constexpr std::size_t kMostKept = 6;  // selections, for undo: 2 bytes a Gaussia
 bool same_stroke(const CameraStroke& a, const CameraStroke& b) {
   return same_camera(a.camera, b.camera) && same_set(a.seen, b.seen) && a.stroke.kind == b.stroke.kind &&
          a.stroke.label == b.stroke.label && a.stroke.radius_px == b.stroke.radius_px &&
-         a.stroke.points_px == b.stroke.points_px;
+         a.stroke.points_px == b.stroke.points_px && a.stroke.size_step == b.stroke.size_step &&
+         a.earlier == b.earlier;
 }
 
 }  // namespace
@@ -22,7 +23,9 @@ std::vector<CameraStroke> in_replay_order(std::span<const CameraStroke> strokes)
   std::vector<CameraStroke> order(strokes.begin(), strokes.end());
   const auto first =
       std::ranges::find(order, SeedLabel::kObject, [](const CameraStroke& s) { return s.stroke.label; });
-  if (first != order.end()) std::rotate(order.begin(), first, first + 1);
+  if (first == order.end()) return order;
+  for (auto s = order.begin(); s != first; ++s) s->earlier = true;
+  std::rotate(order.begin(), first, first + 1);
   return order;
 }
 
@@ -78,9 +81,11 @@ std::shared_ptr<const ClickSelection> StrokeReplay::after(const Drawer& drawer, 
     auto next = std::make_shared<ClickSelection>(before);
     const float factor = static_cast<float>(width_px) / static_cast<float>(said.camera.width_px);
     next->apply(*seen, scaled({said.stroke}, factor).front());
+    if (said.earlier) next->keep_sizes_of(before);
     if (settled || width_px > camera.width_px) return next;
-    width_px = width_to_see_it(options_.choice != 0 && !next->meanings().empty() ? next->meanings().front()
-                               : options_.part_step != 0 && !next->size_masks().empty()
+    width_px = width_to_see_it(!before.any() && options_.choice != 0 && !next->meanings().empty()
+                                   ? next->meanings().front()
+                               : said.stroke.size_step != 0 && !next->size_masks().empty()
                                    ? next->size_masks()[next->likeliest_size()]
                                    : shown(seen->gaussians, seen->camera, next->labels()));
     if (width_px == camera.width_px) return next;
@@ -99,9 +104,8 @@ const ClickSelection& StrokeReplay::replay(const Drawer& drawer, std::span<const
   std::size_t same = 0;
   while (same < std::min(order.size(), done_.size()) && same_stroke(order[same], done_[same])) ++same;
   if (same > 0 && !after_[same - 1]) same = 0;
-  last_ = same > 0
-              ? after_[same - 1]
-              : std::make_shared<ClickSelection>(parts_, options.model, options.part_step, options.choice);
+  last_ =
+      same > 0 ? after_[same - 1] : std::make_shared<ClickSelection>(parts_, options.model, options.choice);
   if (same == order.size()) return *last_;  // what was replayed after that stays known
   done_.resize(same);
   after_.resize(same);

@@ -20,11 +20,11 @@ struct CameraStroke {
   Camera camera;
   Stroke stroke;         // stroke in the camera's pixels
   SeenGaussians seen{};  // flags of the Gaussians that it affects; null: all
+  bool earlier = false;  // true: it was made before the first one on the object
 };
 
 struct ReplayOptions {
   SelectionModel model;
-  int part_step = 0;         // number of sizes above or below the meaning's own, see ClickSelection
   int choice = 0;            // number of the meaning of the first click, see ClickSelection
   int work_width_px = 320;   // greatest width of rasterised views, but see least_object_px
   int least_object_px = 48;  // least square root of the object's pixels: a view that shows fewer gets wider

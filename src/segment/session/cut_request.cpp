@@ -41,6 +41,7 @@ class Key {
       number(stroke.kind);
       number(stroke.label);
       number(stroke.radius_px);
+      number(stroke.size_step);
       list(stroke.points_px, [this](const glm::vec2& p) { numbers({&p.x, 2}); });
     });
   }
@@ -73,7 +74,6 @@ void add_given(const CutRequest& request, Key* key) {
   key->number(static_cast<bool>(request.mask_source));
   key->cameras(request.views);
   key->number(request.choice);
-  key->number(request.part_step);
   key->number(request.up_world.has_value());
   if (request.up_world) key->numbers({&request.up_world->x, 3});
   key->seen(request.among);
@@ -96,6 +96,38 @@ std::vector<StrokedView> strokes_by_view(const std::vector<StrokedView>& strokes
 
 bool marks_object(const StrokedView& view) {
   return std::ranges::any_of(view.strokes, [](const Stroke& s) { return s.label == SeedLabel::kObject; });
+}
+
+Stroke* first_stroke(std::vector<StrokedView>* strokes) {
+  for (StrokedView& view : *strokes)
+    for (Stroke& stroke : view.strokes)
+      if (stroke.label == SeedLabel::kObject) return &stroke;
+  return nullptr;
+}
+
+Stroke* last_stroke(std::vector<StrokedView>* strokes) {
+  if (!first_stroke(strokes)) return nullptr;
+  Stroke* last = nullptr;
+  for (StrokedView& view : *strokes)
+    if (!view.strokes.empty()) last = &view.strokes.back();
+  return last;
+}
+
+const Stroke* first_stroke(const std::vector<StrokedView>& strokes) {
+  return first_stroke(const_cast<std::vector<StrokedView>*>(&strokes));
+}
+
+const Stroke* last_stroke(const std::vector<StrokedView>& strokes) {
+  return last_stroke(const_cast<std::vector<StrokedView>*>(&strokes));
+}
+
+void set_size_steps(std::span<const int> steps, std::vector<StrokedView>* strokes) {
+  std::vector<Stroke*> order;
+  for (StrokedView& view : *strokes)
+    for (Stroke& stroke : view.strokes) order.push_back(&stroke);
+  const auto first = std::ranges::find(order, first_stroke(strokes));
+  if (first != order.end()) std::rotate(order.begin(), first, first + 1);
+  for (std::size_t i = 0; i < std::min(order.size(), steps.size()); ++i) order[i]->size_step = steps[i];
 }
 
 std::optional<ReferenceView> reference_of(const CutRequest& request,
@@ -125,11 +157,24 @@ std::string key_of_first_stroke(const CutRequest& request) {
     for (const Stroke& stroke : view.strokes) {
       if (stroke.label != SeedLabel::kObject) continue;
       Key key;
-      key.stroked({view.camera, {stroke}, view.seen});
+      Stroke alone = stroke;
+      alone.size_step = 0;
+      key.stroked({view.camera, {alone}, view.seen});
       key.seen(request.among);
       return key.take();
     }
   return {};
+}
+
+std::string key_of_last_stroke(const CutRequest& request) {
+  CutRequest own_size;
+  own_size.strokes = request.strokes;
+  own_size.choice = request.choice;
+  own_size.among = request.among;
+  Stroke* last = last_stroke(&own_size.strokes);
+  if (!last) return {};
+  last->size_step = 0;
+  return key_of(own_size);
 }
 
 std::string key_of_reference(const CutRequest& request, const ReferenceView& reference) {

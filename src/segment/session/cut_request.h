@@ -6,6 +6,7 @@
 #include <functional>
 #include <glm/glm.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -41,7 +42,6 @@ struct CutRequest {
   std::vector<Camera> views;            // to look from beside the reference; empty: an orbit
   std::vector<Camera> left_out;         // views that do not count, the reference apart
   int choice = 0;                       // of what the first click can mean, 0 the likeliest
-  int part_step = 0;                    // sizes above or below that meaning's own
   std::optional<glm::vec3> up_world;    // where the user says which way is up; the session's otherwise
   SeenGaussians among{};                // the scene is cut as if it had these alone; null: all
 };
@@ -50,6 +50,16 @@ struct CutRequest {
 std::vector<StrokedView> strokes_by_view(const std::vector<StrokedView>& strokes);
 
 bool marks_object(const StrokedView& view);
+
+// The stroke that is applied first (in_replay_order()), that on the object which was made first, and the one
+// that was made last; null: no stroke marks the object.
+Stroke* first_stroke(std::vector<StrokedView>* strokes);
+Stroke* last_stroke(std::vector<StrokedView>* strokes);
+const Stroke* first_stroke(const std::vector<StrokedView>& strokes);
+const Stroke* last_stroke(const std::vector<StrokedView>& strokes);
+
+// Gives the strokes these sizes, in the order in which they are applied. Those beyond keep their own.
+void set_size_steps(std::span<const int> steps, std::vector<StrokedView>* strokes);
 
 // What is clicked in: the camera of the first mask, or the first view with an object stroke; null: nothing
 // marks the object. Strokes: those of `by_view` there.
@@ -66,8 +76,13 @@ std::string key_of(const CutRequest& request);
 // Its strokes alone, in their order.
 std::string key_of_strokes(const CutRequest& request);
 
-// Its first stroke on the object, with its view: what the meanings of the first click depend on. Empty: none.
+// Its first stroke on the object without its size, with its view: what the meanings of the first click depend
+// on. Empty: none.
 std::string key_of_first_stroke(const CutRequest& request);
+
+// Its strokes and choice without the size of the last one: what the sizes of that depend on. Empty: no stroke
+// marks the object.
+std::string key_of_last_stroke(const CutRequest& request);
 
 // The part of the key that the cut from the reference depends on, see session.h.
 std::string key_of_reference(const CutRequest& request, const ReferenceView& reference);

@@ -31,9 +31,9 @@ struct CutResult {
   std::vector<std::uint8_t> labels;  // per Gaussian of the cloud, 1 = object
   std::vector<std::uint8_t> prior;   // what the parts say, per Gaussian; it counts in every cut; or empty
   std::vector<std::int8_t> said;     // per Gaussian: +1, -1 as strokes themselves decide, 0 open; or empty
-  std::size_t sizes = 0, size = 0;   // that the first click can mean, from small to large; the one taken
-  std::size_t likeliest_size = 0;    // the one at part_step 0
-  std::vector<Mask> size_masks;      // of each size, in the first click's view
+  std::size_t sizes = 0, size = 0;   // of what the last stroke means, from small to large; the one taken
+  std::size_t likeliest_size = 0;    // the one at step 0
+  std::vector<Mask> size_masks;      // of each size, in that stroke's view; see ClickSelection
   std::vector<Mask> meanings;     // of the first click in its view, the likeliest first; see ClickSelection
   std::size_t choice = 0;         // the one taken
   bool spot_alone = false;        // the last stroke changed the spot around it alone: no part fits it

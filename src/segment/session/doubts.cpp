@@ -57,8 +57,7 @@ std::vector<std::string> doubts(const CutResult& result, double view_agreement) 
                    result.meanings.size() > 1
                        ? fmt::format("what was said first could mean one of {} things: this is {}",
                                      result.meanings.size(), result.choice + 1)
-                       : fmt::format("what was said first could mean another size: this is {} of {}",
-                                     result.size + 1, result.sizes));
+                       : "what was said first could mean a smaller or a larger part");
   return sentences;
 }
 
@@ -67,8 +66,8 @@ std::vector<std::string> doubts_of(const CutResult& result, double view_agreemen
   if (result.spot_alone)
     sentences.insert(
         sentences.begin(),
-        "the last click changed the spot around it alone, as no part of the scene ends there: where two "
-        "things touch, scribble on both sides of their border or use the brush");
+        "the last click changed the spot around it alone, as no part of the scene ends there: take a "
+        "larger size of it, or where two things touch, scribble on both sides of their border");
   return sentences;
 }
 

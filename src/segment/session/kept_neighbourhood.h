@@ -46,7 +46,8 @@ inline bool by_parts(const CutSettings& settings) {
 
 // These strokes alone, asked for as `like` asks.
 CutRequest request_of(std::span<const CameraStroke> strokes, const CutRequest& like);
-// The first stroke on the object alone, and its likeliest meaning.
+// The first stroke on the object alone, its likeliest meaning in its own size.
 CutRequest first_of(const CutRequest& request);
+int first_size_step(const CutRequest& request);  // Stroke::size_step of the first stroke on the object
 
 }  // namespace splatcut

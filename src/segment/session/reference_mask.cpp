@@ -103,7 +103,6 @@ std::optional<ReferenceMask> reference_mask(const CutTask& task, const Camera& c
 
 ReplayOptions replay_options(const CutRequest& request, const CutSettings& settings, const PartModel& model) {
   ReplayOptions options{.model = model.selection};
-  options.part_step = request.part_step;
   options.choice = request.choice;
   options.work_width_px = settings.work_width_px;
   options.least_object_px = settings.least_object_px;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/byte_hash.h"
 #include "core/stage_clock.h"
@@ -39,7 +40,9 @@ Session::~Session() = default;
 Session::Session(Session&& other) noexcept = default;
 
 const StrokeHits& Session::hits(const CameraStroke& stroke, const Job& job) {
-  std::string key = key_of_strokes(request_of({&stroke, 1}, {}));
+  CameraStroke any_size = stroke;
+  any_size.stroke.size_step = 0;
+  std::string key = key_of_strokes(request_of({&any_size, 1}, {}));
   const auto known = hits_.find(key);
   if (known != hits_.end()) return known->second;
   constexpr std::size_t kMostHits = 4096;
@@ -80,11 +83,11 @@ CutRequest Session::in_place(const CutRequest& request, const Answered& answered
                              const Job& job) {
   CutRequest local = request;
   local.choice = answered.choice;
-  local.part_step = answered.part_step;
+  set_size_steps(answered.size_steps, &local.strokes);
   if (there->near.row.empty()) return local;
   const Box box = there->near.place.cell.box_world();
-  local.strokes.clear();
-  for (const StrokedView& view : request.strokes) {
+  const std::vector<StrokedView> asked = std::exchange(local.strokes, {});
+  for (const StrokedView& view : asked) {
     StrokedView here{view.camera, {}, there->seen.in(there->near, view.seen)};
     for (Stroke stroke : view.strokes) {
       if (stroke.label == SeedLabel::kRest) {
@@ -116,7 +119,14 @@ CutResult Session::in_scene(const Local& there, CutResult result) const {
 // taken needed a larger place.
 void Session::keep_offer(const CutRequest& request, const Answered& answered, const CutSettings& settings,
                          const Job& job, CutResult* result) {
-  if (result->meanings.empty() || (request.choice == 0 && request.part_step == 0)) return;
+  if (const Stroke* last = last_stroke(request.strokes); last && result->sizes > 0) {
+    CutRequest here = request;
+    set_size_steps(answered.size_steps, &here.strokes);
+    if (last_stroke(here.strokes)->size_step != last->size_step)
+      result->likeliest_size = static_cast<std::size_t>(  // as the wheel counts from there
+          std::max<std::ptrdiff_t>(0, static_cast<std::ptrdiff_t>(result->size) - last->size_step));
+  }
+  if (result->meanings.empty() || (request.choice == 0 && first_size_step(request) == 0)) return;
   const CutRequest first = first_of(request);
   const std::optional<Answered> offered = place_of(first, settings, job);
   if (!offered || offered->place == answered.place) return;
@@ -128,8 +138,18 @@ void Session::keep_offer(const CutRequest& request, const Answered& answered, co
   if (meanings.empty()) return;
   result->meanings = std::move(meanings);
   result->choice = std::min(static_cast<std::size_t>(request.choice), result->meanings.size() - 1);
-  result->likeliest_size = static_cast<std::size_t>(  // as the wheel counts from there
-      std::max<std::ptrdiff_t>(0, static_cast<std::ptrdiff_t>(result->size) - request.part_step));
+}
+
+// The sizes are those of the last stroke that the place knows. Where the request's own hits nothing there, it
+// has none.
+void keep_own_sizes(const CutRequest& request, const CutRequest& in_place, CutResult* result) {
+  const std::vector<CameraStroke> asked = strokes_in_order(request), known = strokes_in_order(in_place);
+  if (!known.empty() && same_camera(asked.back().camera, known.back().camera) &&
+      asked.back().stroke.label == known.back().stroke.label &&
+      asked.back().stroke.points_px == known.back().stroke.points_px)
+    return;
+  result->sizes = result->size = result->likeliest_size = 0;
+  result->size_masks.clear();
 }
 
 // The neighbourhood of the cut and its result there; null: nothing is marked or hit, or cancelled.
@@ -141,12 +161,15 @@ Session::Local* Session::settled(const CutRequest& request, const CutSettings& s
   while (answered && !job.cancelled()) {
     Local* there = local(answered->place, settings, job);
     if (!there) return nullptr;
+    const CutRequest here = in_place(request, *answered, there, job);
     OnSnapshot in_whole;
     if (on_snapshot)
-      in_whole = [&](CutPhase phase, const CutResult& so_far) {
-        on_snapshot(phase, in_scene(*there, so_far));
+      in_whole = [&](CutPhase phase, CutResult so_far) {
+        keep_own_sizes(request, here, &so_far);
+        on_snapshot(phase, in_scene(*there, std::move(so_far)));
       };
-    *result = there->session.cut(in_place(request, *answered, there, job), settings, job, in_whole);
+    *result = there->session.cut(here, settings, job, in_whole);
+    keep_own_sizes(request, here, result);
     StageClock(&stages).book(result->stages);
     result->stages = stages;
     std::optional<Answered> larger;

@@ -10,7 +10,8 @@
 //      stroke on the object hits what lies outside, the next cell is twice as large, about both. A cell
 //      that holds most of the scene is the scene. A first answer is shown while it grows. Other meanings of
 //      the first click, mostly one of which is the floor or a wall, make it grow when they are taken: they
-//      are offered where the likeliest is answered, and found again in the larger cell by their labels.
+//      are offered where the likeliest is answered, and found again in the larger cell by their labels. So
+//      are other sizes of every stroke.
 // Strokes on the rest that hit nothing of the cell change nothing: there is no object there. Cuts from pixels
 // alone (the baselines) look at the whole scene. What a request asks for among some of the Gaussians is asked
 // of a session on these (session_among.h), as other files of a scene change no answer of before.
@@ -98,11 +99,12 @@ class Session {
 
  private:
   using Local = KeptNeighbourhood;
-  // Where a request is answered, and which of the meanings and sizes that its first stroke has there it
-  // takes.
+  // Where a request is answered, and which of the meanings and sizes that its strokes have there it takes.
   struct Answered {
     Place place;
-    int choice = 0, part_step = 0;  // as in CutRequest
+    int choice = 0;  // as in CutRequest
+    std::vector<int>
+        size_steps{};  // Stroke::size_step of the strokes in replay order; the others have their own
   };
 
   SessionAmong* among(const CutRequest& request);
@@ -117,11 +119,16 @@ class Session {
   Place grown_about(const Neighbourhood& near, std::span<const std::uint8_t> labels) const;
   std::optional<Answered> place_of_strokes(const CutRequest& request, const CutSettings& settings,
                                            const Job& job);
-  Answered place_after(std::span<const CameraStroke> strokes, const CutRequest& like,
-                       const CutSettings& settings, Answered there, const Box& must_hold, const Job& job);
+  Answered place_after(const CutRequest& request, const CutSettings& settings, Answered there,
+                       const Box& must_hold, const Job& job);
   std::optional<Answered> place_of(const CutRequest& request, const CutSettings& settings, const Job& job);
   std::optional<Answered> answered_in(const Place& larger, const Answered& here, const CutRequest& request,
                                       const CutSettings& settings, const Job& job);
+  std::optional<Answered> first_answered_in(const Place& larger, const Answered& here,
+                                            const CutRequest& request, const CutSettings& settings,
+                                            const Job& job);
+  int step_in(Answered there, const Answered& here, const CutRequest& before, const CutRequest& after,
+              const CutSettings& settings, const Job& job);
   void keep_offer(const CutRequest& request, const Answered& answered, const CutSettings& settings,
                   const Job& job, CutResult* result);
   Local* local(const Place& place, const CutSettings& settings, const Job& job);

@@ -61,6 +61,13 @@ double likeness(std::span<const std::uint8_t> small, std::span<const std::uint8_
   return static_cast<double>(both) / static_cast<double>(std::max<std::size_t>(either, 1));
 }
 
+std::vector<std::uint8_t> changed(const std::vector<std::uint8_t>& before,
+                                  const std::vector<std::uint8_t>& after) {
+  std::vector<std::uint8_t> change(after.size());
+  for (std::size_t g = 0; g < std::min(before.size(), after.size()); ++g) change[g] = before[g] != after[g];
+  return change;
+}
+
 // Whether a size shows most of what was taken, so that it may be the same: looked at before its labels are.
 bool covers(const Mask& mask, const CutResult& taken) {
   constexpr double kMost = 0.6;
@@ -79,7 +86,6 @@ CutRequest request_of(std::span<const CameraStroke> strokes, const CutRequest& l
   CutRequest request;
   for (const CameraStroke& s : strokes) request.strokes.push_back({s.camera, {s.stroke}, s.seen});
   request.choice = like.choice;
-  request.part_step = like.part_step;
   request.up_world = like.up_world;
   return request;
 }
@@ -87,8 +93,13 @@ CutRequest request_of(std::span<const CameraStroke> strokes, const CutRequest& l
 CutRequest first_of(const CutRequest& request) {
   const std::vector<CameraStroke> strokes = in_replay_order(strokes_in_order(request));
   CutRequest first = request_of(std::span(strokes).first(1), request);
-  first.choice = first.part_step = 0;
+  first.choice = first.strokes.front().strokes.front().size_step = 0;
   return first;
+}
+
+int first_size_step(const CutRequest& request) {
+  const Stroke* first = first_stroke(request.strokes);
+  return first ? first->size_step : 0;
 }
 
 bool Session::is_whole(const Cell& cell) const {
@@ -177,11 +188,10 @@ std::optional<Session::Answered> Session::place_of_strokes(const CutRequest& req
   const std::vector<CameraStroke> strokes = in_replay_order(strokes_in_order(request));
   if (strokes.empty() || strokes.front().stroke.label != SeedLabel::kObject) return {};
   const std::string how = fmt::format("{} {}", settings.work_width_px, settings.least_object_px);
-  const auto first = [&](std::size_t count) { return std::span(strokes).first(count); };
-  CutRequest likeliest = request;
-  likeliest.choice = likeliest.part_step = 0;
-  const auto like = [&](std::size_t count) -> const CutRequest& { return count > 1 ? request : likeliest; };
-  const auto key = [&](std::size_t count) { return key_of(request_of(first(count), like(count))) + how; };
+  const auto first = [&](std::size_t count) {
+    return count > 1 ? request_of(std::span(strokes).first(count), request) : first_of(request);
+  };
+  const auto key = [&](std::size_t count) { return key_of(first(count)) + how; };
   std::size_t known = strokes.size();
   while (known > 0 && !places_.contains(key(known))) --known;
   std::optional<Answered> there;
@@ -194,25 +204,36 @@ std::optional<Session::Answered> Session::place_of_strokes(const CutRequest& req
     if (job.cancelled() || !must_hold) return {};
     if (!there) there = Answered{first_place(strokes[0].camera, *must_hold)};
     if (i + 1 > known) {
-      there = place_after(first(i + 1), like(i + 1), settings, *there, *must_hold, job);
-      if (job.cancelled()) return {};
+      // Another size is one of those where the stroke's own is answered.
+      CutRequest own_size = first(i + 1);
+      own_size.strokes.back().strokes.back().size_step = 0;
+      const std::string own_key = key_of(own_size) + how;
+      if (i > 0) there->size_steps.push_back(0);
       if (places_.size() >= kMostPlaces) places_.clear();
-      places_[key(i + 1)] = *there;
+      const auto own = places_.find(own_key);
+      there = own != places_.end() ? own->second : place_after(own_size, settings, *there, *must_hold, job);
+      if (job.cancelled()) return {};
+      places_[own_key] = *there;
+      if (i > 0 && strokes[i].stroke.size_step != 0) {
+        there->size_steps.back() = strokes[i].stroke.size_step;
+        there = place_after(first(i + 1), settings, *there, *must_hold, job);
+        if (job.cancelled()) return {};
+        places_[key(i + 1)] = *there;
+      }
     }
-    if (i == 0 && known <= 1) there = Answered{there->place, request.choice, request.part_step};
+    if (i == 0 && known <= 1)
+      there = Answered{there->place, request.choice, {strokes.front().stroke.size_step}};
   }
   return there;
 }
 
-Session::Answered Session::place_after(std::span<const CameraStroke> strokes, const CutRequest& like,
-                                       const CutSettings& settings, Answered answered, const Box& must_hold,
-                                       const Job& job) {
-  const CutRequest request = request_of(strokes, like);
+Session::Answered Session::place_after(const CutRequest& request, const CutSettings& settings,
+                                       Answered answered, const Box& must_hold, const Job& job) {
   if (!answered.place.whole && !holds(answered.place.cell, must_hold)) {
     const Place larger = grown(answered.place, must_hold);
     // What is clicked must be there, whatever the first stroke means then.
     answered = answered_in(larger, answered, request, settings, job)
-                   .value_or(Answered{larger, answered.choice, answered.part_step});
+                   .value_or(Answered{larger, answered.choice, answered.size_steps});
   }
   while (!job.cancelled()) {
     Local* there = local(answered.place, settings, job);
@@ -235,16 +256,72 @@ std::optional<Session::Answered> Session::place_of(const CutRequest& request, co
   const auto reference = std::ranges::find_if(request.strokes, marks_object);
   if (reference == request.strokes.end()) return {};
   if (by_parts(settings)) return place_of_strokes(request, settings, job);
-  return Answered{place_of_all(reference->camera), request.choice, request.part_step};
+  return Answered{place_of_all(reference->camera), request.choice};
 }
 
-// The meaning and size of the first stroke in a larger place that are most like those taken here: a place has
-// its own meanings and sizes, in its own order. None: it has nothing alike, or cancelled.
+// What is taken here in a larger place, which has its own meanings and sizes, in its own order. None: it has
+// nothing like the first stroke's, or cancelled.
 std::optional<Session::Answered> Session::answered_in(const Place& larger, const Answered& here,
                                                       const CutRequest& request, const CutSettings& settings,
                                                       const Job& job) {
-  if ((here.choice == 0 && here.part_step == 0) || request.first_mask || !by_parts(settings))
-    return Answered{larger, here.choice, here.part_step};
+  const auto in_their_own = [](const Answered& a) {
+    return a.choice == 0 && std::ranges::all_of(a.size_steps, [](int step) { return step == 0; });
+  };
+  Answered there{larger, here.choice, here.size_steps};
+  if (request.first_mask || !by_parts(settings) || in_their_own(here)) return there;
+  const std::optional<Answered> first = first_answered_in(larger, here, request, settings, job);
+  if (!first) return {};
+  there = *first;
+  const std::vector<CameraStroke> strokes = in_replay_order(strokes_in_order(request));
+  for (std::size_t i = 1; i < std::min(strokes.size(), here.size_steps.size()); ++i) {
+    there.size_steps.push_back(0);
+    if (here.size_steps[i] == 0) continue;
+    const auto before = request_of(std::span(strokes).first(i), request),
+               after = request_of(std::span(strokes).first(i + 1), request);
+    there.size_steps.back() = step_in(there, here, before, after, settings, job);
+    if (job.cancelled()) return {};
+  }
+  return there;
+}
+
+// The step of the last stroke of `after` that changes most nearly what its step changes here.
+int Session::step_in(Answered there, const Answered& here, const CutRequest& before, const CutRequest& after,
+                     const CutSettings& settings, const Job& job) {
+  CutSettings alone = settings;
+  alone.parts_only = true;
+  Local* place = local(here.place, settings, job);
+  if (!place) return 0;
+  const CutResult taken = place->session.cut(in_place(after, here, place, job), alone, job);
+  const std::vector<std::uint8_t> wanted =
+      changed(place->session.meant(in_place(before, here, place, job), settings, job), taken.labels);
+  const std::vector<std::uint32_t> rows = place->near.row;  // the place may be pushed out
+  place = local(there.place, settings, job);
+  if (!place || job.cancelled()) return 0;
+  const std::vector<std::uint32_t> among = rows_among(rows, place->near.row);
+  const std::vector<std::uint8_t> from =
+      place->session.meant(in_place(before, there, place, job), settings, job);
+  const CutResult own = place->session.cut(in_place(after, there, place, job), alone, job);
+  int best = 0;
+  double most = likeness(wanted, changed(from, own.labels), among);
+  for (std::size_t size = 0; size < own.size_masks.size() && !job.cancelled(); ++size) {
+    const int step = static_cast<int>(size) - static_cast<int>(own.likeliest_size);
+    if (step == 0 || !covers(own.size_masks[size], taken)) continue;
+    there.size_steps.back() = step;
+    const double alike = likeness(
+        wanted, changed(from, place->session.meant(in_place(after, there, place, job), settings, job)),
+        among);
+    if (alike <= most) continue;
+    most = alike;
+    best = step;
+  }
+  return best;
+}
+
+// The meaning and size of the first stroke that are most like those taken here.
+std::optional<Session::Answered> Session::first_answered_in(const Place& larger, const Answered& here,
+                                                            const CutRequest& request,
+                                                            const CutSettings& settings, const Job& job) {
+  if (here.choice == 0 && here.size_steps.front() == 0) return Answered{larger, 0, {0}};
   constexpr double kAlike = 0.7, kEnough = 0.9;  // IoU of labels within the smaller place
   const CutRequest first = first_of(request);
   CutSettings alone = settings;
@@ -266,14 +343,14 @@ std::optional<Session::Answered> Session::answered_in(const Place& larger, const
   };
   std::size_t meanings = 1;
   for (int choice = 0; choice < static_cast<int>(meanings) && most < kEnough; ++choice) {
-    const auto request_for = [&](int step) { return in_place(first, {larger, choice, step}, there, job); };
+    const auto request_for = [&](int step) { return in_place(first, {larger, choice, {step}}, there, job); };
     const CutResult own = there->session.cut(request_for(0), alone, job);
     meanings = own.meanings.size();
-    look_at({larger, choice, 0}, own.labels);
+    look_at({larger, choice, {0}}, own.labels);
     for (std::size_t size = 0; size < own.size_masks.size() && most < kEnough && !job.cancelled(); ++size) {
       const int step = static_cast<int>(size) - static_cast<int>(own.likeliest_size);
       if (step != 0 && covers(own.size_masks[size], taken))
-        look_at({larger, choice, step}, there->session.meant(request_for(step), settings, job));
+        look_at({larger, choice, {step}}, there->session.meant(request_for(step), settings, job));
     }
   }
   return job.cancelled() ? std::nullopt : best;

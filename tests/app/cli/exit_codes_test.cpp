@@ -1,6 +1,8 @@
 // With which code the program ends: 0 done, 1 what it could not do, 2 wrong usage; and the sentence beside
 // it.
 #include <doctest/doctest.h>
+#include <fmt/format.h>
+
 #include "program_runner.h"
 #include "small_still_life.h"
 
@@ -126,6 +128,10 @@ TEST_CASE("wrong usage exits with 2, a thing that cannot be done with 1 and a se
   refused(life.cut("-o cut --click 1,2:sky"), {"sky", "object or rest"});
   refused(life.cut("-o cut --click 5000,2"), {"5000", "outside"});
   refused(life.cut("-o cut --seeds bad.json"), {"bad.json", "JSON"});
+  for (const char* scale : {"1.5", "true", "4294967297", "1e30", "\"1\""}) {
+    life.place.write("scaled.json", fmt::format(R"({{"clicks": [{{"x": 9, "y": 9, "scale": {}}}]}})", scale));
+    refused(life.cut("-o cut --seeds scaled.json"), {"scaled.json", "\"scale\" is no whole number"});
+  }
   refused(life.cut("-o cut --box 1,1,inf,9"), {"--box 1,1,inf,9", "outside of any picture"});
   refused(life.cut("-o cut --click 1,1 --preset paper --scale 1"),
           {"--scale", "first mask comes from pixels"});

@@ -158,6 +158,37 @@ TEST_CASE("any view: an offered meaning is taken by what the clicked view shows,
   }
 }
 
+TEST_CASE("any view: the wheel is turned as long as the clicked view gets better, and costs no click") {
+  const Mask wide = block(2, 1, 5, 3), square = block(4, 2, 3, 3), none(kWidth, kHeight);
+  // Of view 1, from its smallest size: IoU 1/9, 1/3, 1, 2/3. The click itself takes the first or the last.
+  const std::vector<Mask> sizes = {block(5, 3, 1, 1), block(4, 2, 3, 1), square, block(4, 2, 3, 2)};
+  for (const int by_itself : {0, 3}) {
+    CAPTURE(by_itself);
+    Toy toy(wide, square);
+    std::vector<int> asked;
+    toy.world.cut = [&](std::span<const ViewClick> clicks, int, const Job&) {
+      const int step = clicks.front().stroke.size_step;
+      if (clicks.size() == 1) asked.push_back(step);
+      const int size = std::clamp(by_itself + step, 0, 3);
+      CutAnswer answer;
+      for (const Mask* m : {clicks.size() == 1 ? &none : &wide, &sizes.at(static_cast<std::size_t>(size))})
+        for (const std::uint8_t p : m->pixels()) answer.labels.push_back(p != 0);
+      return answer;
+    };
+    const AnyViewStart start = toy.start_in_1({5.5f, 2.5f});
+    const AnyViewSession session = any_view_session(toy.world, start, 2, {.sizes = true});
+    CHECK(asked == (by_itself == 0 ? std::vector{0, 1, 2, 3} : std::vector{0, 1, -1, -2}));
+    REQUIRE(session.clicks.size() == 2);
+    CHECK(session.clicks[0].stroke.size_step == (by_itself == 0 ? 2 : -1));
+    CHECK(session.clicks[1].stroke.size_step == 0);
+    CHECK(session.iou_after == std::vector<double>{0.5, 1});
+    CHECK(sessions_json({session}, 2)["sessions"][0]["clicks"][0]["scale"] == (by_itself == 0 ? 2 : -1));
+    asked.clear();
+    CHECK(any_view_session(toy.world, start, 1).clicks[0].stroke.size_step == 0);
+    CHECK(asked == std::vector{0});
+  }
+}
+
 TEST_CASE(
     "any view: a sheet shows each click's view before and after it, right, missing and too much apart") {
   constexpr int kWide = 60, kHigh = 40;

@@ -308,7 +308,7 @@ TEST_CASE("others: work says by its version that it holds what is left to others
   two.of_others = make_flags(some);
   write_work_file(file, *scene, document);
   nlohmann::json work = nlohmann::json::parse(std::ifstream(file));
-  CHECK(work["splatcut_work"] == 8);  // a program that knows up to 7 refuses it in words
+  CHECK(work["splatcut_work"] == 9);  // a program that knows up to 7 refuses it in words
   const RestoredWork read = restored(read_work_file(file), *scene);
   REQUIRE(read.document.find(2)->of_others);
   CHECK(*read.document.find(2)->of_others == some);

@@ -64,6 +64,36 @@ TEST_CASE("saved work: read back the same, and computed again bit for bit") {
   CHECK(run->views.empty());  // what it would show is another cut
 }
 
+TEST_CASE(
+    "saved work: every stroke keeps its size, and that of an object of older files is its first one's") {
+  const ScratchFolder folder("sizes_of_work");
+  const auto file = folder / "sizes.splatcut.json";
+  const auto scene = open_scene(kSmallSample);
+  Document document;
+  ObjectItem& item = add_object(&document, "mug");
+  const Camera camera = load_cameras(kSampleFolder / "cameras.json").front();
+  Strokes strokes = {click({300, 200}, SeedLabel::kRest), click({310, 200}, SeedLabel::kObject),
+                     click({320, 200}, SeedLabel::kRest)};
+  strokes[1].size_step = 2;
+  strokes[2].size_step = -1;
+  item.views = {{camera, strokes}};
+  write_work_file(file, *scene, document);
+  const auto steps = [&] {
+    std::vector<int> found;
+    const RestoredWork read = restored(read_work_file(file), *scene);
+    for (const Stroke& stroke : read.document.objects.front().views.front().strokes)
+      found.push_back(stroke.size_step);
+    return found;
+  };
+  CHECK(steps() == std::vector{0, 2, -1});
+  nlohmann::json work = nlohmann::json::parse(std::ifstream(file));
+  work["splatcut_work"] = 8;
+  work["objects"][0]["part_step"] = -3;
+  for (nlohmann::json& stroke : work["objects"][0]["views"][0]["strokes"]) stroke.erase("size_step");
+  std::ofstream(file) << work;
+  CHECK(steps() == std::vector{0, -3, 0});
+}
+
 TEST_CASE("saved work: what is wrong with a file is said in one sentence") {
   const ScratchFolder folder("wrong_work");
   const auto file = folder / "wrong.splatcut.json";
@@ -97,7 +127,7 @@ TEST_CASE("saved work: what is wrong with a file is said in one sentence") {
   for (const nlohmann::json& version : {nlohmann::json(0), nlohmann::json(-2), nlohmann::json(6),
                                         nlohmann::json(1000), nlohmann::json("5"), nlohmann::json(5.5)})
     CHECK(said_of_version(version).find("is of version " + version.dump() +
-                                        ", this splatcut reads versions 7 to 8") != std::string::npos);
+                                        ", this splatcut reads versions 7 to 9") != std::string::npos);
 }
 
 TEST_CASE(

@@ -217,7 +217,7 @@ TEST_CASE(
   const std::size_t apple = hands.selected();
   hands.app.key('=', {.shift = true});
   CHECK(hands.selected() > apple);
-  CHECK(hands.studio().document().active_object()->part_step == 1);
+  CHECK(last_stroke(hands.studio().document().active_object()->views)->size_step == 1);
   hands.app.key('-');
   CHECK(hands.selected() == apple);
 }

@@ -36,6 +36,10 @@ Before taken(HeadlessApp& app) {
           s.viewport().floaters_shown()};
 }
 
+int size_step(HeadlessApp& app) {
+  return last_stroke(app.studio().document().active_object()->views)->size_step;
+}
+
 Check tool_is(const Tool& tool) {
   return [tool](HeadlessApp& app, const Before&) { return app.studio().view().tool == tool; };
 }
@@ -133,12 +137,8 @@ const std::map<Action, Check> kChecks = {
      [](HeadlessApp& app, const Before& b) { return app.studio().view().brush_px < b.view.brush_px; }},
     {Action::kBrushLarger,
      [](HeadlessApp& app, const Before& b) { return app.studio().view().brush_px > b.view.brush_px; }},
-    {Action::kPartLarger,
-     [](HeadlessApp& app, const Before&) { return app.studio().document().active_object()->part_step == 1; }},
-    {Action::kPartSmaller,
-     [](HeadlessApp& app, const Before&) {
-       return app.studio().document().active_object()->part_step == -1;
-     }},
+    {Action::kPartLarger, [](HeadlessApp& app, const Before&) { return size_step(app) == 1; }},
+    {Action::kPartSmaller, [](HeadlessApp& app, const Before&) { return size_step(app) == -1; }},
     {Action::kIsolate, shows(DisplayMode::kIsolate)},
     {Action::kHide, shows(DisplayMode::kHide)},
     {Action::kShowAll, shows(DisplayMode::kWhole)},

@@ -291,10 +291,8 @@ TEST_CASE("doubts: another size, masks left out, and a cutout that most masks sp
   }
   CHECK(doubts(report).empty());
   report.certainty = 0.84;
-  report.sizes = 5;
-  report.size = 1;
   CHECK(doubts(report) ==
-        std::vector<std::string>{"what was said first could mean another size: this is 2 of 5"});
+        std::vector<std::string>{"what was said first could mean a smaller or a larger part"});
   report.meanings.resize(3);
   CHECK(doubts(report) ==
         std::vector<std::string>{"what was said first could mean one of 3 things: this is 1"});

@@ -29,7 +29,7 @@ SelectionModel boxes_and_borders() {
 }
 
 Labels boxed(const Strokes& strokes) {
-  return selected(strokes, 0, boxes_and_borders());
+  return selected(strokes, boxes_and_borders());
 }
 
 const PartMeaning& of_node(const std::vector<PartMeaning>& found, std::uint32_t node) {
@@ -145,7 +145,7 @@ TEST_CASE("box: what else it can mean looks clearly different, and is taken when
   const LeafView view = stripes(parts);
   std::vector<Labels> meant;
   for (int choice = 0; choice < kMostMeanings; ++choice) {
-    ClickSelection selection(parts, model, 0, choice);
+    ClickSelection selection(parts, model, choice);
     REQUIRE(selection.apply(view, columns(0, 20)));
     REQUIRE(selection.meanings().size() == kMostMeanings);
     CHECK(selection.choice() == static_cast<std::size_t>(choice));
@@ -173,7 +173,7 @@ TEST_CASE(
     return view;
   };
   const auto meant = [&](const LeafView& view, const Stroke& box, int choice = 0) {
-    ClickSelection selection(parts, boxes_and_borders(), 0, choice);
+    ClickSelection selection(parts, boxes_and_borders(), choice);
     REQUIRE(selection.apply(view, box));
     return selection.labels();
   };

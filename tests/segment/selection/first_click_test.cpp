@@ -15,10 +15,10 @@ using namespace splatcut::testing;
 TEST_CASE("selection: one size smaller and larger, beyond the last there is none") {
   for (const auto& [steps, expected] :
        std::map<int, Labels>{{-1, {1, 0, 0, 0}}, {-9, {1, 0, 0, 0}}, {1, {1, 1, 1, 1}}, {9, {1, 1, 1, 1}}})
-    CHECK(selected({object(5)}, steps) == expected);
+    CHECK(selected({sized(object(5), steps)}) == expected);
   const PartHierarchy parts = four_leaves();
-  ClickSelection selection(parts, borders_alone(), 9);
-  selection.apply(stripes(parts), object(5));
+  ClickSelection selection(parts, borders_alone());
+  selection.apply(stripes(parts), sized(object(5), 9));
   CHECK(selection.sizes() == 3);
   CHECK(selection.size() == 2);
 }
@@ -32,7 +32,7 @@ TEST_CASE("selection: what is likely enough and shows something else is offered,
   const std::vector<Labels> meant = {{1, 1, 0, 0}, {1, 1, 1, 1}, {1, 0, 0, 0}};
   for (const int choice : {0, 1, 2, 9}) {
     CAPTURE(choice);
-    ClickSelection selection(parts, unsure, 0, choice);
+    ClickSelection selection(parts, unsure, choice);
     CHECK(selection.meanings().empty());
     selection.apply(view, object(5));
     const std::size_t taken = std::min<std::size_t>(static_cast<std::size_t>(choice), 2);
@@ -44,8 +44,8 @@ TEST_CASE("selection: what is likely enough and shows something else is offered,
     CHECK(selection.sizes() == 3);
     CHECK(selection.likeliest_size() == selection.size());
   }
-  ClickSelection smaller(parts, unsure, -1, 1);  // one size below all four
-  smaller.apply(view, object(5));
+  ClickSelection smaller(parts, unsure, 1);
+  smaller.apply(view, sized(object(5), -1));  // one size below all four
   CHECK(smaller.labels() == meant[0]);
   ClickSelection sure(parts, borders_alone());
   sure.apply(view, object(5));
@@ -58,9 +58,9 @@ TEST_CASE("selection: how alike all is that a click can mean, until another mean
   PartHierarchy parts = four_leaves();
   const LeafView view = stripes(parts);
   const auto certainty = [&](int step, int choice) {
-    ClickSelection selection(parts, unsure, step, choice);
+    ClickSelection selection(parts, unsure, choice);
     CHECK(selection.certainty() == 1);
-    selection.apply(view, object(5));
+    selection.apply(view, sized(object(5), step));
     return selection.certainty();
   };
   // The pair is taken: half of all four, twice the leaf. Their costs are as above.

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "four_stripes.h"
+#include "segment/masks/mask_tools.h"
 #include "segment/selection/part_sizes.h"
 
 using namespace splatcut;
@@ -124,14 +125,54 @@ TEST_CASE("sizes: they are nested, differ by a fifth at least, and hold what is 
   }
 }
 
+TEST_CASE("sizes: of a correction, from what it changes up and down, never over a click of the other sign") {
+  const SelectionModel model = borders_alone();
+  const PartHierarchy parts = four_leaves();
+  const LeafView view = stripes(parts);
+  const auto after = [&](const Stroke& first, const Stroke& correction) {
+    ClickSelection selection(parts, model);
+    selection.apply(view, first);
+    REQUIRE(selection.apply(view, correction));
+    CHECK(selection.size_masks().size() == selection.sizes());
+    return selection;
+  };
+  const Stroke all = sized(object(5), 1);
+  // The spot alone, the clicked half of the second pair, that pair; the first pair holds the click on the
+  // object.
+  const ClickSelection pair = after(all, rest(35));
+  CHECK(pair.labels() == Labels{1, 1, 0, 0});
+  REQUIRE(pair.sizes() == 3);
+  CHECK(pair.size() == 2);
+  CHECK(pair.likeliest_size() == 2);
+  CHECK(count(pair.size_masks()[0]) < 80);
+  CHECK(count(pair.size_masks()[1]) == 100);
+  CHECK(count(pair.size_masks()[2]) == 200);
+  CHECK(after(all, sized(rest(35), -1)).labels() == Labels{1, 1, 1, 0});
+  const ClickSelection spot = after(all, sized(rest(35), -9));
+  CHECK(spot.labels() == Labels{1, 1, 1, 0});  // a stripe is one Gaussian, and the click is obeyed
+  CHECK(spot.size() == 0);
+  CHECK_FALSE(spot.spot_alone());  // nothing to doubt: it was asked for
+  CHECK(after(all, sized(rest(35), 9)).labels() == Labels{1, 1, 0, 0});
+  // A click on the object takes what the object lacks.
+  const ClickSelection other = after(object(5), object(25));
+  CHECK(other.labels() == Labels{1, 1, 1, 1});
+  CHECK(other.sizes() == 3);
+  CHECK(after(object(5), sized(object(25), -1)).labels() == Labels{1, 1, 1, 0});
+
+  // What is shown as said already has no sizes, nor has a scribble or a box that corrects.
+  CHECK(after(object(5), object(6)).sizes() == 0);
+  CHECK(after(all, {SeedLabel::kRest, 1, {{32, 5}, {38, 5}}}).sizes() == 0);
+  CHECK(after(all, box_around({20, 0}, {40, 10}, SeedLabel::kRest)).sizes() == 0);
+}
+
 TEST_CASE("sizes: of a box, from what it means up and down") {
   SelectionModel model = borders_alone();
   model.box = SelectionModel().box;
   const PartHierarchy parts = four_leaves();
   const LeafView view = stripes(parts);
   for (const auto& [step, expected] : {std::pair<int, Labels>{0, {1, 1, 0, 0}}, {1, {1, 1, 1, 1}}}) {
-    ClickSelection selection(parts, model, step);
-    REQUIRE(selection.apply(view, box_around({20, 0}, {0, 10}, SeedLabel::kObject)));
+    ClickSelection selection(parts, model);
+    REQUIRE(selection.apply(view, sized(box_around({20, 0}, {0, 10}, SeedLabel::kObject), step)));
     CHECK(selection.labels() == expected);
     CHECK(selection.sizes() == 3);
     CHECK(selection.likeliest_size() == 1);

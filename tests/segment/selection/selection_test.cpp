@@ -78,19 +78,19 @@ TEST_CASE(
   const PartHierarchy parts = four_leaves();
   const auto after = [&](const std::vector<int>& columns, const Strokes& strokes) {
     const LeafView view = stripes(parts, columns);
-    ClickSelection selection(parts, model, 1);
+    ClickSelection selection(parts, model);
     for (const Stroke& stroke : strokes) selection.apply(view, stroke);
     return selection.labels();
   };
   // The border is 5 pixels away: up to e pi 5^2 = 213 pixels may go. Two stripes are 200, three are 300.
   const std::vector<int> two_more = {0, 1, 2, -1}, three_more = {0, 1, 2, 3};
-  CHECK(after(two_more, {object(5)}) == Labels{1, 1, 1, 1});
-  CHECK(after(two_more, {object(5), rest(15)}) == Labels{1, 0, 0, 0});
-  CHECK(after(three_more, {object(5), rest(15)}) == Labels{1, 0, 1, 1});
+  CHECK(after(two_more, {sized(object(5), 1)}) == Labels{1, 1, 1, 1});
+  CHECK(after(two_more, {sized(object(5), 1), rest(15)}) == Labels{1, 0, 0, 0});
+  CHECK(after(three_more, {sized(object(5), 1), rest(15)}) == Labels{1, 0, 1, 1});
   // After two object clicks a single part is no other meaning of the one.
-  CHECK(after(two_more, {object(5), object(7), rest(15)}) == Labels{1, 0, 1, 1});
+  CHECK(after(two_more, {sized(object(5), 1), object(7), rest(15)}) == Labels{1, 0, 1, 1});
   weight(&model.later, Term::kRepick) = 50;
-  CHECK(after(two_more, {object(5), rest(15)}) == Labels{1, 0, 1, 1});
+  CHECK(after(two_more, {sized(object(5), 1), rest(15)}) == Labels{1, 0, 1, 1});
 }
 
 // Two trees, ((0 1) (2 3)) and ((0 2) (1 3)): without the second stripe, the first click meant the first one
@@ -111,13 +111,13 @@ TEST_CASE("selection: a rest click takes back what the trees agree that the firs
   const auto after = [&](float doubtful, const Strokes& strokes) {
     weight(&model.later, Term::kDoubtful) = doubtful;
     const LeafView view = stripes(parts);
-    ClickSelection selection(parts, model, 10);
+    ClickSelection selection(parts, model);
     for (const Stroke& stroke : strokes) selection.apply(view, stroke);
     return selection.labels();
   };
-  CHECK(after(0, {object(5)}) == Labels{1, 1, 1, 1});
+  CHECK(after(0, {sized(object(5), 10)}) == Labels{1, 1, 1, 1});
   // A second click on the object, as one alone may mean another part of this size without any vote.
-  const Strokes clicks = {object(5), object(7), rest(15)};
+  const Strokes clicks = {sized(object(5), 10), object(7), rest(15)};
   CHECK(after(0, clicks) == Labels{1, 0, 1, 0});
   // .4975 of the votes are against the third stripe, which is half of what is meant: the doubt is .2487. It
   // outweighs the cost of -50 from 50 / .2487 = 201 on.
@@ -125,10 +125,10 @@ TEST_CASE("selection: a rest click takes back what the trees agree that the firs
   CHECK(after(207, clicks) == Labels{1, 0, 1, 1});
   // After a single click on the object the change is as small as the click says, and doubted as much.
   weight(&model.later, Term::kRepick) = -50;
-  CHECK(after(195, {object(5), rest(15)}) == Labels{1, 0, 1, 0});
-  CHECK(after(207, {object(5), rest(15)}) == Labels{1, 0, 1, 1});
+  CHECK(after(195, {sized(object(5), 10), rest(15)}) == Labels{1, 0, 1, 0});
+  CHECK(after(207, {sized(object(5), 10), rest(15)}) == Labels{1, 0, 1, 1});
   // A click on the third stripe leaves the one tree that has a part for it.
-  CHECK(after(1e6f, {object(5), object(25), rest(15)}) == Labels{1, 0, 1, 0});
+  CHECK(after(1e6f, {sized(object(5), 10), object(25), rest(15)}) == Labels{1, 0, 1, 0});
 }
 
 TEST_CASE("selection: a second click on the object may say that the first meant what holds both") {
@@ -162,35 +162,35 @@ TEST_CASE("selection: a correction after one of the same sign means what holds b
   const LeafView view = stripes(parts);
   const auto after = [&](float again, const Strokes& strokes) {
     weight(&model.later, Term::kAgain) = again;
-    ClickSelection selection(parts, model, 10);
+    ClickSelection selection(parts, model);
     for (const Stroke& stroke : strokes) selection.apply(view, stroke);
     return selection.labels();
   };
-  CHECK(after(-50, {object(5)}) == Labels{1, 1, 1, 1});
-  CHECK(after(-50, {object(5), rest(15)}) == Labels{1, 0, 1, 1});
-  CHECK(after(0, {object(5), rest(15), rest(25)}) == Labels{1, 0, 0, 1});
+  CHECK(after(-50, {sized(object(5), 10)}) == Labels{1, 1, 1, 1});
+  CHECK(after(-50, {sized(object(5), 10), rest(15)}) == Labels{1, 0, 1, 1});
+  CHECK(after(0, {sized(object(5), 10), rest(15), rest(25)}) == Labels{1, 0, 0, 1});
   // The whole tree holds both: the click on the object holds back its pair alone.
-  CHECK(after(-50, {object(5), rest(15), rest(25)}) == Labels{1, 0, 0, 0});
+  CHECK(after(-50, {sized(object(5), 10), rest(15), rest(25)}) == Labels{1, 0, 0, 0});
   // A click on the object in between has changed its mind.
-  CHECK(after(-50, {object(5), rest(15), object(15), rest(25)}) == Labels{1, 1, 0, 1});
+  CHECK(after(-50, {sized(object(5), 10), rest(15), object(15), rest(25)}) == Labels{1, 1, 0, 1});
   // A box has said how far the thing reaches.
   const Stroke all = box_around({0, 0}, {40, 40}, SeedLabel::kObject);
   CHECK(after(-50, {all, rest(15), rest(25)}) == Labels{1, 0, 0, 1});
   // The sixth correction mends a detail, whatever came before.
-  Strokes many = {object(5)};
+  Strokes many = {sized(object(5), 10)};
   for (int i = 0; i < 4; ++i) many.push_back(i % 2 ? object(15) : rest(15));
   many.insert(many.end(), {rest(15), rest(25)});
   CHECK(after(-50, many) == Labels{1, 0, 0, 1});
   many.erase(many.begin() + 1, many.begin() + 3);
   CHECK(after(-50, many) == Labels{1, 0, 0, 0});
   // A click on what is so already, in between, changes nothing.
-  CHECK(after(-50, {object(5), rest(15), object(5), rest(25)}) == Labels{1, 0, 0, 0});
+  CHECK(after(-50, {sized(object(5), 10), rest(15), object(5), rest(25)}) == Labels{1, 0, 0, 0});
 }
 
 TEST_CASE("selection: a click is obeyed though no part is likely, by its disc alone") {
   SelectionModel nothing_likely = borders_alone();
   weight(&nothing_likely.later, Term::kDisc) = -100;
-  const Labels labels = selected({object(5), object(25)}, 0, nothing_likely);
+  const Labels labels = selected({object(5), object(25)}, nothing_likely);
   CHECK(labels == Labels{1, 1, 1, 0});
 }
 
@@ -222,14 +222,14 @@ TEST_CASE("selection: a click on the rest pays for what it would leave of the ob
   // All four stripes are the object. The pair under the click costs ln(0.001 / sqrt 2) = -7.25 and would
   // leave half, ln 2 - 0.4 = 0.293; its leaf costs 0 and would leave three quarters, ln 4/3 < 0.4.
   SelectionModel model = borders_alone();
-  CHECK(selected({object(5)}, 1, model) == Labels{1, 1, 1, 1});
+  CHECK(selected({sized(object(5), 1)}, model) == Labels{1, 1, 1, 1});
   weight(&model.later, Term::kTakes) = 24;
-  CHECK(selected({object(5), rest(35)}, 1, model) == Labels{1, 1, 0, 0});
+  CHECK(selected({sized(object(5), 1), rest(35)}, model) == Labels{1, 1, 0, 0});
   weight(&model.later, Term::kTakes) = 26;
-  CHECK(selected({object(5), rest(35)}, 1, model) == Labels{1, 1, 1, 0});
+  CHECK(selected({sized(object(5), 1), rest(35)}, model) == Labels{1, 1, 1, 0});
   // A click on the object gives, and pays nothing.
   weight(&model.later, Term::kTakes) = 1000;
-  CHECK(selected({object(5), object(25)}, 0, model) == Labels{1, 1, 1, 1});
+  CHECK(selected({object(5), object(25)}, model) == Labels{1, 1, 1, 1});
 }
 
 TEST_CASE("selection: what would mostly change where the view does not show it is dear") {
