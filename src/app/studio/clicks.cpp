@@ -147,8 +147,8 @@ std::string Clicks::why_not_step(int steps) const {
     const bool may_have = last->is_click() || last == first_stroke(object->views);
     const bool settled = !cuts_.comes(*object) && cuts_.run(object->id);
     return may_have && !settled ? ""
-           : may_have           ? "That click changed nothing that has another size"
-                                : "Only a click has sizes, and what began the object";
+           : may_have           ? "The last click changed nothing, so it has no other size"
+                                : "The last stroke has no sizes: only clicks have, and what began the object";
   }
   const std::size_t size = size_wanted(), last = known->count() - 1;
   if (last == 0) return "The click means one size alone";
@@ -190,7 +190,8 @@ bool Clicks::asks_ahead() const {
 
 // Nothing without a hit under the pointer.
 std::optional<Clicks::HoverAsk> Clicks::hover_wanted() const {
-  if (!pointer_inside_ || !asks_ahead()) return {};
+  // Where the wheel takes another size of the last click, that is outlined, not what the next one changes.
+  if (!pointer_inside_ || !asks_ahead() || (ws_.tools.scale_armed() && sizes())) return {};
   const ObjectItem* active = ws_.document().active_object();
   const Camera camera = viewport_.pane_camera();
   const auto hit = viewport_.pick(ws_.tools.pointer_px());

@@ -38,10 +38,11 @@ class Clicks {
   // size_wanted(): the one that the document asks for, which StrokeSizes::size becomes once it is computed.
   const StrokeSizes* known_sizes() const;
   std::size_t size_wanted() const;
-  // The same for a while after a click or a step of the wheel, when the size wanted and those next to it
-  // show; null: none show.
+  // The same as long as the wheel takes them, and for a while after a step, when the size wanted and those
+  // next to it show; null: none show.
   const StrokeSizes* sizes() const;
-  float sizes_opacity() const;  // opacity of sizes(), which falls from 1 to 0
+  float sizes_opacity() const;                                             // opacity of sizes(), from 1 to 0
+  bool sizes_fade() const { return sizes() && !ws_.tools.scale_armed(); }  // true: it changes with time
   // True if the active object's clicks found nothing, mostly because they were made from too far away.
   bool found_nothing() const;
   // Returns a refusal if the last click is known to have no part that many sizes larger; else empty.

@@ -35,6 +35,13 @@ bool is_of_stroke(const History& history) {
          (title.starts_with("Click") || title.starts_with("Scribble"));
 }
 
+// What the wheel can do about a correction that took the wrong size.
+const char* wheel_hint(const CutResult& result) {
+  if (result.size == 0) return ". Too little? Turn the wheel";
+  return result.size + 1 == result.sizes ? ". Too much? Turn the wheel"
+                                         : ". Too much or too little? Turn the wheel";
+}
+
 }  // namespace
 
 const CutRun* CutJobs::known_run(ObjectId object, const std::string& key) const {
@@ -379,7 +386,7 @@ void CutJobs::finish(const Order& order, CutRun run, const Flags& labels) {
   ws_.say(doubt.empty() ? Message::Kind::kDone : Message::Kind::kInfo,
           fmt::format("{}: {}{}{}", name, changed, shared,
                       !doubt.empty()             ? ". But " + doubt
-                      : turns && corrects        ? ". Too much or too little? Turn the wheel"
+                      : turns && corrects        ? wheel_hint(*result)
                       : turns && unsure(*result) ? ". Not all of it? Turn the wheel for another size"
                                                  : ""));
 }

@@ -149,7 +149,7 @@ bool Studio::update(double seconds) {
   clicks_.update();
   files_.update();
   work_.update(seconds);
-  return moves || !idle() || clicks_.sizes();
+  return moves || !idle() || clicks_.sizes_fade();
 }
 
 std::string Studio::coming() const {

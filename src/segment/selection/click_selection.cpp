@@ -191,14 +191,16 @@ std::vector<std::uint8_t> ClickSelection::corrected_leaves(const Click& click, c
         all.push_back(
             {static_cast<std::uint32_t>(c.chain), found.chains[c.chain].nodes[c.index], {}, c.cost});
   const float spot_px = std::max(static_cast<float>(pixels.spot.size()), kLeastSizePx);
-  PartSizes sizes = part_sizes(parts_, meant, all, changed_px, spot_px);
+  constexpr float kLeastFolds = 1.2f;                                  // from the spot to the next size
+  const SizeSteps steps{.least_px = spot_px, .next = 1.5f, .far = 2};  // a correction is mostly small
+  PartSizes sizes = part_sizes(parts_, meant, all, changed_px, steps);
   float smallest_px = 0;
   for (std::uint32_t l = 0; l < parts_.leaves; ++l) {
     if (!changes(l)) sizes.level[l] = kNoLevel;
     if (sizes.level[l] == 0) smallest_px += changed_px[l];
   }
   if (sizes.taken == 0) smallest_px = std::max(smallest_px, static_cast<float>(pixels.by_colour.size()));
-  if (smallest_px >= kNextSize * spot_px) {
+  if (smallest_px >= kLeastFolds * spot_px) {
     ++sizes.count;
     ++sizes.taken;
     for (std::uint32_t& level : sizes.level)

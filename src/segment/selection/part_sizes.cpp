@@ -12,7 +12,6 @@ namespace splatcut {
 
 namespace {
 
-constexpr float kLargeStep = 1.5f;  // ratio beyond which a part is a step too far
 constexpr float kSameSize = 1.25f;  // ratio of parts among which the cheapest is taken if all are too far
 constexpr float kInside = 0.9f;     // share of the smaller set's pixels that the larger one holds
 constexpr std::size_t kMostSizes = 64;
@@ -27,11 +26,11 @@ struct NextSize {
 class Ladder {
  public:
   Ladder(const PartHierarchy& parts, std::span<const PartMeaning> meanings, std::span<const float> leaf_px,
-         float least_px)
+         const SizeSteps& steps)
       : parts_(parts),
         meanings_(meanings),
         leaf_px_(leaf_px),
-        least_px_(least_px),
+        steps_(steps),
         px_(pixels_of(LeafFlags(parts.leaves, 1))) {}
 
   // Sizes beyond the set, from one to the next.
@@ -63,14 +62,14 @@ class Ladder {
     const std::vector<float> common = pixels_of(set);
     std::vector<NextSize> fit;
     for (std::size_t m = 0; m < meanings_.size(); ++m) {
-      const float px = std::max(px_[m], least_px_), before_px = std::max(set_px, least_px_);
+      const float px = std::max(px_[m], steps_.least_px), before_px = std::max(set_px, steps_.least_px);
       const float folds = larger ? px / before_px : before_px / px;
-      if (px_[m] >= least_px_ && folds >= kNextSize && common[m] >= kInside * std::min(px, set_px))
+      if (px_[m] >= steps_.least_px && folds >= steps_.next && common[m] >= kInside * std::min(px, set_px))
         fit.push_back({&meanings_[m], folds});
     }
     if (fit.empty()) return std::nullopt;
     const float nearest = std::ranges::min(fit, {}, &NextSize::folds).folds;
-    const float farthest = std::max(kLargeStep, kSameSize * nearest);
+    const float farthest = std::max(steps_.far, kSameSize * nearest);
     std::erase_if(fit, [&](const NextSize& size) { return size.folds > farthest; });
     const auto best = std::ranges::min_element(fit, {}, [](const NextSize& size) { return size.part->cost; });
     LeafFlags next = leaves_of(parts_, best->part->tree, best->part->node);
@@ -81,7 +80,7 @@ class Ladder {
   const PartHierarchy& parts_;
   std::span<const PartMeaning> meanings_;
   std::span<const float> leaf_px_;
-  float least_px_;
+  SizeSteps steps_;
   std::vector<float> px_;  // pixels per meaning
 };
 
@@ -94,8 +93,9 @@ std::vector<std::uint8_t> PartSizes::leaves(std::size_t size) const {
 }
 
 PartSizes part_sizes(const PartHierarchy& parts, std::span<const std::uint8_t> taken,
-                     std::span<const PartMeaning> meanings, std::span<const float> leaf_px, float least_px) {
-  const Ladder ladder(parts, meanings, leaf_px, least_px);
+                     std::span<const PartMeaning> meanings, std::span<const float> leaf_px,
+                     const SizeSteps& steps) {
+  const Ladder ladder(parts, meanings, leaf_px, steps);
   const LeafFlags set(taken.begin(), taken.end());
   std::vector<LeafFlags> sizes = ladder.from(set, false);
   std::ranges::reverse(sizes);

@@ -28,12 +28,16 @@ struct PartSizes {
 };
 
 inline constexpr float kLeastSizePx = 1;  // smaller sizes cannot be seen
-inline constexpr float kNextSize = 1.2f;  // ratio of pixels that tells two sizes apart
+
+struct SizeSteps {
+  float least_px = kLeastSizePx;  // limit: no smaller size is found
+  float next = 1.2f, far = 1.5f;  // ratios of pixels from which, and up to which, a part is the next size
+};
 
 // taken: flags per leaf. meanings: parts with their costs, in any order. leaf_px: pixels per leaf. least_px:
 // at least kLeastSizePx.
 PartSizes part_sizes(const PartHierarchy& parts, std::span<const std::uint8_t> taken,
                      std::span<const PartMeaning> meanings, std::span<const float> leaf_px,
-                     float least_px = kLeastSizePx);
+                     const SizeSteps& steps = {});
 
 }  // namespace splatcut

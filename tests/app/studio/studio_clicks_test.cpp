@@ -165,6 +165,7 @@ TEST_CASE("clicks: hovering outlines what the click then changes, corrections in
     Artist artist(place);
     artist.click_on_it();
     const auto hovered = [&](const glm::vec2& at) {
+      artist.app.move(artist.on_screen({80, 80}));  // where the last click was, its sizes are outlined
       artist.app.move(at);
       REQUIRE(artist.app.settle());
       return artist.studio().viewport().style(0).highlight ? *artist.studio().viewport().style(0).highlight
