@@ -145,10 +145,10 @@ std::string Clicks::why_not_step(int steps) const {
   if (!known) {
     const Stroke* last = last_stroke(object->views);
     const bool may_have = last->is_click() || last == first_stroke(object->views);
-    const bool settled = !cuts_.comes(*object) && cuts_.run(object->id);
-    return may_have && !settled ? ""
-           : may_have           ? "The last click changed nothing, so it has no other size"
-                                : "The last stroke has no sizes: only clicks have, and what began the object";
+    return !may_have ? "The last stroke has no sizes: only clicks have, and what began the object"
+           : cuts_.comes(*object) || !cuts_.run(object->id)
+               ? ""
+               : "The last click changed nothing, so it has no other size";
   }
   const std::size_t size = size_wanted(), last = known->count() - 1;
   if (last == 0) return "The click means one size alone";

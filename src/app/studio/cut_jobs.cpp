@@ -35,8 +35,10 @@ bool is_of_stroke(const History& history) {
          (title.starts_with("Click") || title.starts_with("Scribble"));
 }
 
-// What the wheel can do about a correction that took the wrong size.
-const char* wheel_hint(const CutResult& result) {
+// What the wheel can do about a click that took the wrong size.
+std::string wheel_hint(const CutRequest& request, const CutResult& result) {
+  if (result.sizes < 2 || first_stroke(request.strokes) == last_stroke(request.strokes))
+    return unsure(result) ? ". Not all of it? Turn the wheel for another size" : "";
   if (result.size == 0) return ". Too little? Turn the wheel";
   return result.size + 1 == result.sizes ? ". Too much? Turn the wheel"
                                          : ". Too much or too little? Turn the wheel";
@@ -380,15 +382,9 @@ void CutJobs::finish(const Order& order, CutRun run, const Flags& labels) {
   const std::string box =
       *before == *labels_now() ? "" : added_by_box(ws_.history, order.object, ws_.context());
   const std::string shared = box + shared_with(ws_, order.object);
-  const bool turns = ws_.tools.scale_armed();  // the wheel takes another size
-  const bool corrects =
-      result->sizes > 1 && first_stroke(order.request.strokes) != last_stroke(order.request.strokes);
+  const std::string hint = ws_.tools.scale_armed() ? wheel_hint(order.request, *result) : "";
   ws_.say(doubt.empty() ? Message::Kind::kDone : Message::Kind::kInfo,
-          fmt::format("{}: {}{}{}", name, changed, shared,
-                      !doubt.empty()             ? ". But " + doubt
-                      : turns && corrects        ? wheel_hint(*result)
-                      : turns && unsure(*result) ? ". Not all of it? Turn the wheel for another size"
-                                                 : ""));
+          fmt::format("{}: {}{}{}", name, changed, shared, doubt.empty() ? hint : ". But " + doubt));
 }
 
 // The first doubt that was not said after the cut before. What is doubted of a click is said each time.

@@ -2,6 +2,8 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <chrono>
+#include <thread>
 
 #include "artist.h"
 
@@ -246,7 +248,10 @@ TEST_CASE("clicks: the next sizes show as long as the wheel takes them, and for 
   const auto turn = [&](float notch) {
     artist.app->handle(WheelTurned{notch, {.shift = true}});
     artist.app.frames(1);
-    REQUIRE(artist.app.frames_until([&] { return !artist.studio().cutting(); }));
+    REQUIRE(artist.app.frames_until([&] {
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));  // a frame is a sixtieth of a second
+      return !artist.studio().cutting();
+    }));
   };
   turn(-1);
   const StrokeSizes* sizes = artist.studio().clicks().sizes();
