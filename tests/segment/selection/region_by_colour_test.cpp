@@ -8,6 +8,7 @@
 #include "core/counter_rng.h"
 #include "four_stripes.h"
 #include "scene/cloud/gaussian_cloud.h"
+#include "segment/masks/mask_tools.h"
 #include "segment/selection/stroke_replay.h"
 
 using namespace splatcut;
@@ -139,6 +140,21 @@ TEST_CASE("region by colour: a click on the rim of grass takes all of it, and no
   CHECK(object(selection, kStone) > 0.97 * kAllOfStone);
   CHECK(object(selection, kRim) < 0.05 * kAllOfRim);
   CHECK_FALSE(selection.spot_alone());
+}
+
+TEST_CASE("region by colour: it belongs to the click's own size, and the spot alone is a smaller one") {
+  const PartHierarchy parts = stone_with_rim();
+  const LeafView view = view_of(parts, kGreen);
+  ClickSelection own = taken(parts, view);
+  CHECK(own.apply(view, click({57, 30}, SeedLabel::kRest)));
+  REQUIRE(own.likeliest_size() == 1);
+  CHECK(own.size() == 1);
+  CHECK(count(own.size_masks()[1]) > 0.9 * kAllOfRim);
+  CHECK(count(own.size_masks()[0]) < 0.2 * kAllOfRim);
+  ClickSelection spot = taken(parts, view);
+  CHECK(spot.apply(view, sized(click({57, 30}, SeedLabel::kRest), -1)));
+  CHECK(spot.size() == 0);
+  CHECK(object(spot, kRim) > 0.8 * kAllOfRim);
 }
 
 TEST_CASE("region by colour: replayed clicks draw the colour that they need") {
