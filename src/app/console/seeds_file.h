@@ -9,11 +9,9 @@
 
 namespace splatcut {
 
-// {"clicks": [{"x","y","label":"object"|"rest","scale"}], "boxes":
-// [{"label","corners":[[x,y],[x,y]],"scale"}],
+// {"clicks": [{"x","y","label":"object"|"rest"}], "boxes": [{"label","corners":[[x,y],[x,y]]}],
 //  "scribbles": [{"label","radius_px","points":[[x,y],...]}]}. Boxes come first, as clicks correct them.
-//  scale is
-// Stroke::size_step, 0 by default.
+// Clicks and boxes may have a "scale", which becomes their Stroke::size_step.
 Strokes strokes_from_json(const nlohmann::json& seeds, const std::string& where);
 
 // Stroke::size_step under that key, 0 where there is none. Throws Error where it is no step.

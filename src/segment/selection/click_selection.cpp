@@ -7,7 +7,6 @@
 
 #include "segment/masks/mask_tools.h"
 #include "segment/selection/click_reach.h"
-#include "segment/selection/first_meanings.h"
 #include "segment/selection/region_by_colour.h"
 
 namespace splatcut {
@@ -90,10 +89,6 @@ std::vector<std::uint8_t> ClickSelection::certain_leaves(const LeafView& view,
   return certain;
 }
 
-std::span<const Mask> ClickSelection::size_masks() const {
-  return size_masks_ ? std::span<const Mask>(*size_masks_) : std::span<const Mask>();
-}
-
 std::span<const Mask> ClickSelection::meanings() const {
   return offers_ ? std::span<const Mask>(offers_->masks) : std::span<const Mask>();
 }
@@ -114,99 +109,6 @@ void ClickSelection::note_offers(const LeafView& view, const Answers& found) {
     taken.push_back(std::move(leaves));
   }
   offers_ = std::make_shared<const Offers>(std::move(offers));
-}
-
-// Notes the meanings and the sizes of the one that is chosen. Returns the leaves of the size that is taken.
-std::vector<std::uint8_t> ClickSelection::first_leaves(const LeafView& view, const Answers& found,
-                                                       int size_step) {
-  note_offers(view, found);
-  choice_taken_ = std::min(static_cast<std::size_t>(std::max(choice_, 0)), offers_->meant.size() - 1);
-  const Candidate& chosen = offers_->meant[choice_taken_];
-  std::vector<PartMeaning> all;
-  const auto add = [&](std::span<const Candidate> some) {
-    for (const Candidate& c : some)
-      all.push_back({static_cast<std::uint32_t>(c.chain), found.chains[c.chain].nodes[c.index], {}, c.cost});
-  };
-  add(found.candidates);
-  selected_.meanings = std::make_shared<const std::vector<PartMeaning>>(all);
-  add(found.unlikely);
-  std::vector<std::uint8_t> taken =
-      note_sizes(view, part_sizes(parts_, leaves_changed(found, chosen), all, view.leaf_px), size_step, {});
-  note_certainty(view, taken);
-  return taken;
-}
-
-void ClickSelection::note_certainty(const LeafView& view, const std::vector<std::uint8_t>& taken) {
-  const bool chosen = choice_taken_ > 0 || size_ != likeliest_size_;
-  certainty_ = chosen ? 1 : certainty_of(parts_, *selected_.meanings, taken, view.leaf_px, selected_.boxed);
-}
-
-void ClickSelection::forget_sizes() {
-  sizes_ = size_ = likeliest_size_ = 0;
-  size_masks_ = nullptr;
-}
-
-void ClickSelection::keep_sizes_of(const ClickSelection& other) {
-  sizes_ = other.sizes_;
-  size_ = other.size_;
-  likeliest_size_ = other.likeliest_size_;
-  size_masks_ = other.size_masks_;
-}
-
-// Notes which sizes there are. Returns the leaves of the one that is that many steps from the one taken.
-std::vector<std::uint8_t> ClickSelection::note_sizes(const LeafView& view, const PartSizes& sizes, int step,
-                                                     const CorrectedPixels& pixels) {
-  sizes_ = sizes.count;
-  likeliest_size_ = sizes.taken;
-  const auto wanted = static_cast<std::ptrdiff_t>(sizes.taken) + step;
-  size_ = static_cast<std::size_t>(
-      std::clamp<std::ptrdiff_t>(wanted, 0, static_cast<std::ptrdiff_t>(sizes.count) - 1));
-  std::vector<Mask> masks;
-  for (std::size_t i = 0; i < sizes_; ++i) {
-    masks.push_back(shown(view.leaves, view.camera, sizes.leaves(i)));
-    for (const std::uint32_t pixel : pixels.spot) masks.back().pixels()[pixel] = kMaskObject;
-    if (i < sizes.taken) continue;
-    for (const std::uint32_t pixel : pixels.by_colour) masks.back().pixels()[pixel] = kMaskObject;
-  }
-  size_masks_ = std::make_shared<const std::vector<Mask>>(std::move(masks));
-  return sizes.leaves(size_);
-}
-
-// Notes the sizes of what a correction changes. meant: what it changes by itself. The smallest size is the
-// spot alone.
-std::vector<std::uint8_t> ClickSelection::corrected_leaves(const Click& click, const Answers& found,
-                                                           const std::vector<std::uint8_t>& meant,
-                                                           const CorrectedPixels& pixels, int size_step) {
-  const LeafView& view = click.view;
-  const auto changes = [&](std::uint32_t l) {
-    return meant[l] || (found.free[l] && (selected_.object[l] != 0) != click.object);
-  };
-  std::vector<float> changed_px(parts_.leaves, 0);
-  for (std::uint32_t l = 0; l < parts_.leaves; ++l)
-    if (changes(l)) changed_px[l] = view.leaf_px[l];
-  std::vector<PartMeaning> all;
-  for (const std::vector<Candidate>* some : {&found.candidates, &found.unlikely})
-    for (const Candidate& c : *some)
-      if (c.index != Candidate::kDiscAlone && found.chains[c.chain].of_tree)
-        all.push_back(
-            {static_cast<std::uint32_t>(c.chain), found.chains[c.chain].nodes[c.index], {}, c.cost});
-  const float spot_px = std::max(static_cast<float>(pixels.spot.size()), kLeastSizePx);
-  constexpr float kLeastFolds = 1.2f;                                  // from the spot to the next size
-  const SizeSteps steps{.least_px = spot_px, .next = 1.5f, .far = 2};  // a correction is mostly small
-  PartSizes sizes = part_sizes(parts_, meant, all, changed_px, steps);
-  float smallest_px = 0;
-  for (std::uint32_t l = 0; l < parts_.leaves; ++l) {
-    if (!changes(l)) sizes.level[l] = kNoLevel;
-    if (sizes.level[l] == 0) smallest_px += changed_px[l];
-  }
-  if (sizes.taken == 0) smallest_px = std::max(smallest_px, static_cast<float>(pixels.by_colour.size()));
-  if (smallest_px >= kLeastFolds * spot_px) {
-    ++sizes.count;
-    ++sizes.taken;
-    for (std::uint32_t& level : sizes.level)
-      if (level != kNoLevel) ++level;
-  }
-  return note_sizes(view, sizes, size_step, pixels);
 }
 
 std::vector<std::uint8_t> ClickSelection::leaves_changed(const Answers& found,
@@ -266,7 +168,7 @@ bool ClickSelection::take(const LeafView& view, const glm::vec2& pixel, const St
     }
     if (stroke.is_click()) {
       meant = corrected_leaves(click, found, meant, {certain_px, like_px}, stroke.size_step);
-      if (size_ < likeliest_size_) like_px.clear();
+      if (sizes_.size < sizes_.likeliest) like_px.clear();
     }
     if (object) take_back_colour(meant);
     change_leaves(meant, certain, click);
@@ -455,7 +357,7 @@ void ClickSelection::label() {
 bool ClickSelection::apply(const LeafView& view, const Stroke& stroke) {
   const bool object = stroke.label == SeedLabel::kObject;
   if (!any_ && !object) return false;
-  forget_sizes();
+  sizes_ = {};
   if (stroke.is_box()) return take_box(view, stroke);
   const auto anything = [](std::uint32_t) { return true; };
   bool hit = false;

@@ -70,12 +70,12 @@ class ClickSelection {
   // Sizes of what the last stroke means (part_sizes.h): their number, the index of the one taken, and that at
   // step 0. A correction's sizes hold what it changes. None: it was a later scribble or box, or a click on
   // what showed its label already.
-  std::size_t sizes() const { return sizes_; }
-  std::size_t size() const { return size_; }
-  std::size_t likeliest_size() const { return likeliest_size_; }
+  std::size_t sizes() const { return sizes_.count; }
+  std::size_t size() const { return sizes_.size; }
+  std::size_t likeliest_size() const { return sizes_.likeliest; }
   std::span<const Mask> size_masks() const;  // of each size, in that stroke's view
   // The last stroke was made before one that is in `other` already: its sizes are those to choose from.
-  void keep_sizes_of(const ClickSelection& other);
+  void keep_sizes_of(const ClickSelection& other) { sizes_ = other.sizes_; }
   // How alike what was taken of the first stroke and all that it can mean are: certainty_of() in its view. 1
   // where another meaning or size was chosen, and before it.
   float certainty() const { return certainty_; }
@@ -105,7 +105,6 @@ class ClickSelection {
   struct CorrectedPixels {
     std::span<const std::uint32_t> spot, by_colour;  // what a correction of any size, and of its own, changes
   };
-  void forget_sizes();
   std::vector<std::uint8_t> note_sizes(const LeafView& view, const PartSizes& sizes, int step,
                                        const CorrectedPixels& pixels);
   void note_certainty(const LeafView& view, const std::vector<std::uint8_t>& taken);
@@ -136,12 +135,16 @@ class ClickSelection {
     std::vector<Mask> masks;  // mask of each meaning in the first click's view
   };
   std::shared_ptr<const Offers> offers_;
-  std::shared_ptr<const std::vector<Mask>> size_masks_;  // null: there are no sizes
+  struct OfferedSizes {
+    std::size_t count = 0, size = 0, likeliest = 0;
+    std::shared_ptr<const std::vector<Mask>> masks{};  // null: there are no sizes
+  };
+  OfferedSizes sizes_;
   std::vector<std::uint8_t> labels_;
   std::vector<std::int8_t> said_;
   std::vector<std::uint8_t> by_colour_;  // 1 where said_ is so by colour alone
   bool any_ = false;
-  std::size_t sizes_ = 0, size_ = 0, likeliest_size_ = 0, choice_taken_ = 0;
+  std::size_t choice_taken_ = 0;
   bool spot_alone_ = false;
   float certainty_ = 1;
 };
