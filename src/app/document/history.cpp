@@ -237,6 +237,46 @@ std::string row_title(const History& history, std::size_t entry) {
   return name.empty() && stroke.empty() ? title : title + "  (" + name + between + stroke + ")";
 }
 
+const Document* before_last_stroke(const History& history, ObjectId object) {
+  struct State {
+    const ObjectItem* item = nullptr;  // null: the object was not there
+    const ObjectKeys* keys = nullptr;
+    Flags deleted{};
+  };
+  const auto state = [&](std::size_t entry) -> State {
+    const History::Entry& e = history.entries()[entry];
+    const ObjectItem* item = e.document.find(object);
+    if (!item) return {};
+    return {item, e.keys[static_cast<std::size_t>(item - e.document.objects.data())].get(),
+            e.document.deleted};
+  };
+  const State now = state(history.cursor());
+  std::size_t at = history.cursor();
+  const auto go_back_while_same = [&](std::string ObjectKeys::*key) {
+    const auto is_same = [&](const State& s) {
+      return s.item && s.keys->*key == now.keys->*key && s.item->hand == now.item->hand &&
+             s.item->of_others == now.item->of_others && s.deleted == now.deleted;
+    };
+    while (at > 0 && is_same(state(at - 1))) --at;
+  };
+  const auto last_step = [](const ObjectItem& item) { return last_stroke(item.views)->size_step; };
+  if (!now.item || now.keys->last_click.empty()) return nullptr;
+  go_back_while_same(&ObjectKeys::cut);
+  if (at == 0) return nullptr;
+  const std::size_t made = at;
+  const State before = state(made - 1);
+  const std::size_t strokes = stroke_count(*now.item);
+  const bool is_stroke = !before.item || stroke_count(*before.item) < strokes;
+  if (!is_stroke &&
+      (before.keys->last_click != now.keys->last_click || last_step(*before.item) == last_step(*now.item)))
+    return nullptr;
+  go_back_while_same(&ObjectKeys::last_click);
+  const State first = at > 0 ? state(at - 1) : State();
+  if (first.item && (first.item->cut || first.item->hand) && stroke_count(*first.item) < strokes)
+    return &history.entries()[at - 1].document;
+  return at < made ? &history.entries()[at].document : nullptr;
+}
+
 void leave_in_history(History* history, const ObjectItem before, const ObjectItem& after,
                       std::span<const ObjectId> came) {
   const Document now = history->now();

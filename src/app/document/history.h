@@ -104,6 +104,11 @@ class History {
 // the number of the stroke that it added to others. entry: index into entries().
 std::string row_title(const History& history, std::size_t entry);
 
+// The state before the last stroke of an object of now(), whatever size that stroke has now; where nothing of
+// the object was before, as before its first, the state in which the stroke had its own size. Null: there is
+// none, or the object was changed since otherwise, by hand, by settings or by another meaning.
+const Document* before_last_stroke(const History& history, ObjectId object);
+
 // Makes `before`, an object of now(), what left_what_came() made of it, in every state in which it waits for
 // the same others and these have what they have now. In others it is done when they become the present one.
 void leave_in_history(History* history, ObjectItem before, const ObjectItem& after,

@@ -1,7 +1,9 @@
 #include "app/picture/cut_pictures.h"
 
 #include <algorithm>
+#include <optional>
 
+#include "app/picture/stroke_change.h"
 #include "scene/raster/depth_jump.h"
 #include "segment/finish/seen_from.h"
 #include "segment/masks/mask_tools.h"
@@ -22,14 +24,22 @@ RasterOutput drawn_small(const GaussianCloud& cloud, const Camera& camera, const
   return rasterize(cloud, limited_to_width(camera, kThumbnailWidth), options, job);
 }
 
-Image<Rgba8> thumbnail(const RasterOutput& drawn, const Mask& mask, bool counts, const Rgb8& colour) {
+// change: of the drawing's size; without masks where there is none.
+Image<Rgba8> thumbnail(const RasterOutput& drawn, const Mask& mask, bool counts, const Rgb8& colour,
+                       const ChangeSeen& change) {
+  constexpr glm::vec3 kLeft{0.96f, 0.12f, 0.12f}, kCame{0.35f, 0.86f, 0.47f};
   Image<Rgba8> out(drawn.colour.width(), drawn.colour.height());
   const glm::vec3 hue = glm::vec3(colour[0], colour[1], colour[2]) / 255.0f;
   for (int y = 0; y < out.height(); ++y)
     for (int x = 0; x < out.width(); ++x) {
       const int u = x * mask.width() / out.width(), v = y * mask.height() / out.height();
       glm::vec3 c = drawn.colour.at(x, y);
-      c = mask.at(u, v) ? glm::mix(c, hue, 0.55f) : 0.75f * c;
+      if (!change.left.empty() && change.left.at(x, y))
+        c = glm::mix(c, kLeft, 0.7f);
+      else if (!change.came.empty() && change.came.at(x, y))
+        c = glm::mix(c, kCame, 0.7f);
+      else
+        c = mask.at(u, v) ? glm::mix(c, hue, 0.55f) : 0.75f * c;
       if (!counts) c *= 0.35f;
       const glm::vec3 b = glm::clamp(c, 0.0f, 1.0f) * 255.0f;
       out.at(x, y) = {static_cast<std::uint8_t>(b.r), static_cast<std::uint8_t>(b.g),
@@ -44,6 +54,8 @@ ViewCard card_of(const ViewReport& view, Image<Rgba8> picture) {
           view.confidence,
           view.reason,
           std::make_shared<const Image<Rgba8>>(std::move(picture)),
+          false,
+          {},
           false,
           {},
           0};
@@ -72,6 +84,32 @@ class DoubtsOfSides {
   std::span<const Camera> capture_;
   SeenSides seen_;
 };
+
+// The view that holds the stroke; null: none is given.
+const StrokedView* view_of(const CutRequest& request, const Stroke* stroke) {
+  for (const StrokedView& view : request.strokes)
+    for (const Stroke& own : view.strokes)
+      if (&own == stroke) return &view;
+  return nullptr;
+}
+
+// None: there is nothing to show beside the result.
+std::optional<StrokeChange> change_of(const Session& session, const CutShown& cut, const Job& job) {
+  const std::vector<std::uint8_t>& now = cut.result.labels;
+  const StrokedView* made_in = view_of(cut.request, last_stroke(cut.request.strokes));
+  if (!made_in || !cut.before || cut.before->size() != now.size() || *cut.before == now ||
+      count_flags(*cut.before) == 0 || count_flags(now) == 0)
+    return {};
+  const Drawer drawer(*session.scene().cloud, nullptr, &session.blocks());
+  return StrokeChange(drawer, *made_in, *cut.before, now, job);
+}
+
+void tell(const ChangeSeen& changed, ViewCard* card) {
+  card->doubt = changed.doubt;
+  card->doubt_of_stroke = !changed.doubt.empty();
+  if (count(changed.left) + count(changed.came) > 0)
+    card->legend = "\nRed left with the last stroke, green came with it.";
+}
 
 // After clicks the default uses no views around the object.
 bool looked_around_by_none(const CutResult& result, const CutRequest& request, const CutSettings& settings) {
@@ -113,30 +151,41 @@ ViewCard mask_card(const ViewReport& view, const Rgb8& colour) {
   return card_of(view, std::move(out));
 }
 
-std::vector<ViewCard> picture_cards(Session& session, const CutRequest& request, const CutSettings& settings,
-                                    const CutResult& result, const Rgb8& colour, const Job& job) {
+std::vector<ViewCard> picture_cards(Session& session, const CutShown& cut, const Job& job) {
   const GaussianCloud& cloud = *session.scene().cloud;
+  const CutResult& result = cut.result;
+  const std::optional<StrokeChange> change = change_of(session, cut, job);
+  const auto changed_in = [&](const Camera& camera) {
+    return change ? change->seen_from(limited_to_width(camera, kThumbnailWidth), job) : ChangeSeen();
+  };
   std::vector<ViewCard> cards;
   for (const ViewReport& view : result.views) {
-    if (job.cancelled()) return cards;
     job.progress("pictures of the views",
                  static_cast<double>(cards.size()) / static_cast<double>(result.views.size()));
     const RasterOutput drawn = drawn_small(cloud, view.camera, job);
-    cards.push_back(card_of(view, thumbnail(drawn, view.mask, view.used, colour)));
-    if (view.used && share_through_surface(drawn, view.mask) > kMuchThroughSurface)
+    const ChangeSeen changed = changed_in(view.camera);
+    if (job.cancelled()) return cards;
+    cards.push_back(card_of(view, thumbnail(drawn, view.mask, view.used, cut.colour, changed)));
+    tell(changed, &cards.back());
+    if (cards.back().doubt.empty() && view.used &&
+        share_through_surface(drawn, view.mask) > kMuchThroughSurface)
       cards.back().doubt = kThroughSurface;
   }
-  if (!looked_around_by_none(result, request, settings) || result.views.empty()) return cards;
-  const DoubtsOfSides doubts(session, request, result);
-  for (const GivenView& view : session.look_around(request, result, settings, kViewsToLookFrom, job)) {
-    if (job.cancelled()) return cards;
+  if (!looked_around_by_none(result, cut.request, cut.settings) || result.views.empty()) return cards;
+  const DoubtsOfSides doubts(session, cut.request, result);
+  std::span<const std::uint8_t> before;
+  if (change) before = *cut.before;
+  for (const GivenView& view :
+       session.look_around(cut.request, result, cut.settings, kViewsToLookFrom, job, before)) {
     const RasterOutput drawn = drawn_small(cloud, view.camera, job);
-    const auto picture = std::make_shared<const Image<Rgba8>>(thumbnail(drawn, view.mask, true, colour));
-    cards.push_back({.camera = view.camera,
-                     .used = false,
-                     .picture = picture,
-                     .only_to_look = true,
-                     .doubt = doubts.of(view.camera, drawn, view.mask, job)});
+    const ChangeSeen changed = changed_in(view.camera);
+    if (job.cancelled()) return cards;
+    const Mask& mask = change ? changed.object : view.mask;
+    const auto picture =
+        std::make_shared<const Image<Rgba8>>(thumbnail(drawn, mask, true, cut.colour, changed));
+    cards.push_back({.camera = view.camera, .used = false, .picture = picture, .only_to_look = true});
+    tell(changed, &cards.back());
+    if (cards.back().doubt.empty()) cards.back().doubt = doubts.of(view.camera, drawn, mask, job);
   }
   return cards;
 }
@@ -170,14 +219,6 @@ std::vector<ViewCard> in_places_of(const std::vector<ViewCard>& before, std::vec
 }
 
 namespace {
-
-// The view that holds the stroke; null: none is given.
-const StrokedView* view_of(const CutRequest& request, const Stroke* stroke) {
-  for (const StrokedView& view : request.strokes)
-    for (const Stroke& own : view.strokes)
-      if (&own == stroke) return &view;
-  return nullptr;
-}
 
 std::vector<Borders> borders_in(const Camera& camera, const std::vector<Mask>& masks) {
   std::vector<Borders> all;

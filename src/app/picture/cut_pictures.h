@@ -18,11 +18,20 @@ double share_through_surface(const RasterOutput& drawn, const Mask& mask);
 // Card of a view that shows its mask alone, for the time until pictures are drawn.
 ViewCard mask_card(const ViewReport& view, const Rgb8& colour);
 
+// A cut to draw cards of. Refers to all but the labels before.
+struct CutShown {
+  const CutRequest& request;
+  const CutSettings& settings;
+  const CutResult& result;
+  Rgb8 colour{};   // the object's
+  Flags before{};  // labels before the last stroke, which cards show beside the result's; null: they do not
+};
+
 // Cards with rasterised views and the mask in the object's colour. Cards of views that do not count are dark.
-// If the cut used no view around the object, a few are added for the user to check, which say where the
-// cutout is in doubt: see ViewCard::doubt. If cancelled, cards are missing.
-std::vector<ViewCard> picture_cards(Session& session, const CutRequest& request, const CutSettings& settings,
-                                    const CutResult& result, const Rgb8& colour, const Job& job);
+// What the last stroke took away is red, what it added green. If the cut used no view around the object, a
+// few are added for the user to check, also those that the object went from with that stroke. See
+// ViewCard::doubt for what is said of them. If cancelled, cards are missing.
+std::vector<ViewCard> picture_cards(Session& session, const CutShown& cut, const Job& job);
 
 // The result with other labels, and what its views show of these: for cards of a cutout that a hand changed.
 // If cancelled, masks are missing.

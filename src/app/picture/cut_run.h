@@ -20,9 +20,11 @@ struct ViewCard {
   double confidence = 0;
   std::string reason;  // reason why the view does not count; empty: it counts
   std::shared_ptr<const Image<Rgba8>> picture;
-  bool only_to_look = false;  // true: the view had no influence on the cut
-  std::string doubt;          // why the cutout is in doubt there, after "In doubt: "; empty: it is not
-  std::uint64_t serial = 0;   // number that changes with the picture
+  bool only_to_look = false;     // true: the view had no influence on the cut
+  std::string doubt;             // why the cutout is in doubt there, after "In doubt: "; empty: it is not
+  bool doubt_of_stroke = false;  // true: it is of what the last stroke changed
+  std::string legend;            // what its marks of that change mean, a line of its own; empty: it has none
+  std::uint64_t serial = 0;      // number that changes with the picture
 };
 
 using Borders = std::vector<std::vector<glm::vec2>>;  // closed lines
@@ -60,6 +62,8 @@ struct CutRun {
   // Doubts about the result, one sentence each; once pictures of its sides are there, one on those.
   std::vector<std::string> doubts;
   Flags views_labels;  // labels that `views` and `doubts` are about; null: those of the result
+  Flags views_before;  // labels before the last stroke, which `views` show beside them; null: they do not
+  std::uint64_t views_at = 0;  // History::serial() at which `views` were found to be what they should
   // Likelihood per Gaussian, [0, 1]; null until it is asked for.
   std::shared_ptr<const std::vector<float>> likelihood;
   bool likelihood_failed = false;  // true: the likelihood is not asked for again

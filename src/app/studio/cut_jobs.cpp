@@ -13,19 +13,6 @@
 
 namespace splatcut {
 
-// What the worker needs.
-struct CutJobs::Order {
-  std::shared_ptr<const OpenedScene> scene;
-  std::shared_ptr<Session> session;
-  CutRequest request;
-  CutSettings settings;
-  ObjectId object = 0;
-  std::string key;
-  Rgb8 colour{};
-  bool heat = false;         // the likelihood is shown
-  std::uint64_t number = 0;  // the same key may be cut again
-};
-
 namespace {
 
 // Whether the last that was done is a stroke.
@@ -165,7 +152,8 @@ CutJobs::Order CutJobs::order_for(const ObjectItem& object) const {
           object.id,
           cut_key(ws_.document(), object),
           object.colour,
-          ws_.view.heat};
+          ws_.view.heat,
+          labels_before_stroke(object.id)};
 }
 
 // anew: whatever is known of such a cut.
@@ -202,8 +190,7 @@ bool CutJobs::take_known(const Order& order) {
   const auto before = std::ranges::find_if(known_, is_it);
   if (ahead == ahead_.end() && before == known_.end()) return false;
   CutRun run = ahead != ahead_.end() ? ahead->run : before->run;
-  run.stages.clear();  // what was there cost nothing
-  run.first_mask_ms = run.total_ms = 0;
+  run.first_mask_ms = run.total_ms = 0;  // what was there cost nothing
   run.changed_nothing = false;
   run.views_labels.reset();
   run.doubts = doubts_of(*run.result);  // without that on its sides, which comes with their pictures
@@ -296,10 +283,9 @@ void CutJobs::work(const Order& order, const Job& job) {
 
 // The cutout is on the screen; the rest is for looking at.
 void CutJobs::look_around(const Order& order, const CutResult& result, const Job& job) {
-  Session& session = *order.session;
   if (order.heat) {
-    const auto likelihood =
-        std::make_shared<const std::vector<float>>(session.likelihood_of(order.request, order.settings, job));
+    const auto likelihood = std::make_shared<const std::vector<float>>(
+        order.session->likelihood_of(order.request, order.settings, job));
     if (job.cancelled()) return;
     ws_.tasks.post([this, order, likelihood] {
       CutRun* run = order.scene == ws_.scene ? known_run(order.object, order.key) : nullptr;
@@ -307,8 +293,7 @@ void CutJobs::look_around(const Order& order, const CutResult& result, const Job
       ++ws_.view_serial;
     });
   }
-  std::vector<ViewCard> cards =
-      picture_cards(session, order.request, order.settings, result, order.colour, job);
+  std::vector<ViewCard> cards = cards_of(order, result, job);
   if (job.cancelled()) return;
   ws_.tasks.post([this, order, cards = std::move(cards)] { show_views(order, cards); });
 }
@@ -350,6 +335,7 @@ void CutJobs::finish(const Order& order, CutRun run, const Flags& labels) {
   if (!runs(order)) return;
   const CutRun& now = running_->run;
   run.views = now.views;
+  for (ViewCard& card : run.views) card.doubt.clear();  // it was about another cut
   run.views_drawn = false;
   run.stages = run.result->stages.empty() ? now.stages : run.result->stages;
   run.first_mask_ms = now.first_mask_ms == 0 ? run.total_ms : now.first_mask_ms;
@@ -401,12 +387,13 @@ std::string CutJobs::doubt_to_say(ObjectId object, const CutRun& run) {
 void CutJobs::show_views(const Order& order, std::vector<ViewCard> cards) {
   CutRun* run = order.scene == ws_.scene ? known_run(order.object, order.key) : nullptr;
   if (!run) return;
-  take_cards(run, std::move(cards));
+  take_cards(run, order.before, std::move(cards));
   const ObjectItem* object = ws_.document().find(order.object);
   std::string& said = sides_said_[order.object];
   if (!add_doubt_of_sides(run)) return said.clear();
   const std::string& doubt = run->doubts.back();
-  if (doubt == said || !object || object->cut_key != order.key || run->changed_nothing) return;
+  if (doubt == said && std::ranges::none_of(run->views, &ViewCard::doubt_of_stroke)) return;
+  if (!object || object->cut_key != order.key || run->changed_nothing) return;
   const Flags now = ws_.labels.labels(ws_.document(), *object, ws_.gaussians());
   if (*now != run->result->labels) return;  // they are drawn again, see renew_views()
   said = doubt;

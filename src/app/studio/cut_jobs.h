@@ -53,7 +53,19 @@ class CutJobs {
     ObjectId object = 0;
     CutRun run;
   };
-  struct Order;
+  // What the worker needs.
+  struct Order {
+    std::shared_ptr<const OpenedScene> scene;
+    std::shared_ptr<Session> session;
+    CutRequest request;
+    CutSettings settings;
+    ObjectId object = 0;
+    std::string key;
+    Rgb8 colour{};
+    bool heat = false;         // the likelihood is shown
+    Flags before{};            // labels before the last stroke, see CutRun::views_before
+    std::uint64_t number = 0;  // the same key may be cut again
+  };
 
   const CutRun* known_run(ObjectId object, const std::string& key) const;
   CutRun* known_run(ObjectId object, const std::string& key);
@@ -74,7 +86,9 @@ class CutJobs {
   void request_likelihood();
   void recall();
   void renew_views();
-  void take_cards(CutRun* run, std::vector<ViewCard> cards);
+  Flags labels_before_stroke(ObjectId object) const;
+  static std::vector<ViewCard> cards_of(const Order& order, const CutResult& result, const Job& job);
+  void take_cards(CutRun* run, const Flags& before, std::vector<ViewCard> cards);
 
   Workspace& ws_;
   std::optional<Known> running_;

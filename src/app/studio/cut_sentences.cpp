@@ -45,7 +45,7 @@ std::string tip_of_card(const ViewCard& card, std::size_t index, bool steady) {
   else if (index > 0 && !steady)
     tip += fmt::format("\nAgrees with the cutout: {:.0f} %", 100 * card.confidence);
   if (!card.doubt.empty()) tip += "\nIn doubt: " + card.doubt;
-  return tip + "\nClick to look from there; correct it with strokes.";
+  return tip + card.legend + "\nClick to look from there; correct it with strokes.";
 }
 
 std::string shared_with(const Workspace& workspace, ObjectId id) {

@@ -14,61 +14,71 @@ void CutJobs::recall() {
   if (!object || !object->cut || object->views.empty() || object->cut_kept || ws_.tasks.busy(TaskKind::kCut))
     return;
   if (known_run(object->id, object->cut_key) || is_stale(*object, ws_.history.keys(*object).cut)) return;
-  const auto know = [this, scene = ws_.scene, id = object->id](CutRun run) {
-    if (scene != ws_.scene || known_run(id, run.key)) return;
-    for (ViewCard& card : run.views) card.serial = next_card_serial_++;
-    keep({id, std::move(run)});
+  const Order order = order_for(*object);
+  const auto know = [this, order](CutRun run, std::vector<ViewCard> cards) {
+    if (order.scene != ws_.scene || known_run(order.object, order.key)) return;
+    take_cards(&run, order.before, std::move(cards));
+    add_doubt_of_sides(&run);
+    keep({order.object, std::move(run)});
     ++ws_.view_serial;
   };
   CutRun nothing;
-  nothing.key = object->cut_key;
-  const auto failed = [know, nothing] { know(nothing); };  // not tried again
-  ws_.tasks.submit(
-      {TaskKind::kCut, failed}, [this, know, run = nothing, session = ws_.session, labels = object->cut,
-                                 colour = object->colour, request = cut_request(ws_.document(), *object),
-                                 settings = cut_settings(ws_.document(), *object)](const Job& job) mutable {
-        const auto result = std::make_shared<const CutResult>(session->cut(request, settings, job));
-        if (job.cancelled()) return;
-        if (result->labels == *labels) {
-          run.result = result;
-          run.stages = result->stages;
-          run.meanings = meanings_of(request, *result);
-          run.sizes = sizes_of(request, *result);
-          run.doubts = doubts_of(*result);
-          run.views = picture_cards(*session, request, settings, *result, colour, job);
-          run.views_drawn = true;
-          add_doubt_of_sides(&run);
-        }
-        if (!job.cancelled()) ws_.tasks.post([know, run] { know(run); });
-      });
+  nothing.key = order.key;
+  const auto failed = [know, nothing] { know(nothing, {}); };  // not tried again
+  ws_.tasks.submit({TaskKind::kCut, failed},
+                   [this, know, failed, order, labels = object->cut](const Job& job) {
+                     CutRun run = cut_of(order, job, {}, CutReach::kAnywhere);
+                     if (!run.result) return;
+                     if (run.result->labels != *labels) return ws_.tasks.post(failed);
+                     run.stages = run.result->stages;
+                     run.total_ms = 0;  // nobody waited for it
+                     const std::vector<ViewCard> cards = cards_of(order, *run.result, job);
+                     if (!job.cancelled()) ws_.tasks.post([know, run, cards] { know(run, cards); });
+                   });
 }
 
-void CutJobs::take_cards(CutRun* run, std::vector<ViewCard> cards) {
+// Null: see before_last_stroke().
+Flags CutJobs::labels_before_stroke(ObjectId object) const {
+  const Document* before = before_last_stroke(ws_.history, object);
+  return before ? make_flags(labels_of(*before, *before->find(object), ws_.gaussians())) : nullptr;
+}
+
+std::vector<ViewCard> CutJobs::cards_of(const Order& order, const CutResult& result, const Job& job) {
+  return picture_cards(*order.session, {order.request, order.settings, result, order.colour, order.before},
+                       job);
+}
+
+void CutJobs::take_cards(CutRun* run, const Flags& before, std::vector<ViewCard> cards) {
   run->views = in_places_of(run->views, std::move(cards));
+  run->views_before = before;
   run->views_drawn = true;
   for (ViewCard& card : run->views) card.serial = next_card_serial_++;
 }
 
-// Draws the views of the active object again where a hand changed what the cut gave, or where another cut
-// stopped their drawing, and says anew which sides are in doubt. What the cut itself doubts is said of its
-// own labels alone.
+// Draws the views of the active object again where a hand changed what the cut gave, where they are to show
+// another change, or where another cut stopped their drawing, and says anew which sides are in doubt. What
+// the cut itself doubts is said of its own labels alone.
 void CutJobs::renew_views() {
   const ObjectItem* object = ws_.document().active_object();
   if (!object || ws_.tasks.busy(TaskKind::kCut)) return;
   CutRun* run = known_run(object->id, object->cut_key);
   if (!run || !run->result || run->result->views.empty()) return;
+  if (run->views_drawn && run->views_at == ws_.history.serial()) return;
   const Flags now = ws_.labels.labels(ws_.document(), *object, ws_.gaussians());
-  if (run->views_drawn && now == run->views_labels) return;
   const bool as_cut = *now == run->result->labels;
-  if (run->views_drawn && (run->views_labels ? *run->views_labels == *now : as_cut)) {
-    run->views_labels = now;  // compared once
+  Order order = order_for(*object);
+  if (order.key != run->key) order.before = run->views_before;  // the last stroke was not cut
+  order.key = run->key;
+  const auto same = [](const Flags& a, const Flags& b) { return a == b || (a && b && *a == *b); };
+  if (run->views_drawn && (run->views_labels ? same(run->views_labels, now) : as_cut) &&
+      same(run->views_before, order.before)) {
+    run->views_at = ws_.history.serial();  // compared once
     return;
   }
-  const auto show = [this, scene = ws_.scene, id = object->id, key = run->key, now,
-                     as_cut](std::vector<ViewCard> cards) {
-    CutRun* shown = scene == ws_.scene ? known_run(id, key) : nullptr;
+  const auto show = [this, order, now, as_cut](std::vector<ViewCard> cards) {
+    CutRun* shown = order.scene == ws_.scene ? known_run(order.object, order.key) : nullptr;
     if (!shown) return;
-    take_cards(shown, std::move(cards));
+    take_cards(shown, order.before, std::move(cards));
     shown->views_labels = now;
     shown->doubts = as_cut ? doubts_of(*shown->result) : std::vector<std::string>();
     add_doubt_of_sides(shown);
@@ -77,11 +87,9 @@ void CutJobs::renew_views() {
   if (count_flags(*now) == 0) return show({});
   const auto failed = [show] { show({}); };  // not tried again
   ws_.tasks.submit(
-      {TaskKind::kCut, failed}, [this, show, now, as_cut, result = run->result, session = ws_.session,
-                                 colour = object->colour, request = cut_request(ws_.document(), *object),
-                                 settings = cut_settings(ws_.document(), *object)](const Job& job) {
-        const CutResult changed = as_cut ? *result : with_labels(*session, *result, *now, job);
-        std::vector<ViewCard> cards = picture_cards(*session, request, settings, changed, colour, job);
+      {TaskKind::kCut, failed}, [this, show, order, now, as_cut, result = run->result](const Job& job) {
+        const CutResult changed = as_cut ? *result : with_labels(*order.session, *result, *now, job);
+        std::vector<ViewCard> cards = cards_of(order, changed, job);
         if (!job.cancelled()) ws_.tasks.post([show, cards = std::move(cards)] { show(cards); });
       });
 }
@@ -103,16 +111,13 @@ void CutJobs::request_likelihood() {
     ++ws_.view_serial;
   };
   const auto failed = [change] { change([](CutRun* run) { run->likelihood_failed = true; }); };
-  ws_.tasks.submit(
-      {TaskKind::kCut, failed},
-      [this, change, session = ws_.session, request = cut_request(ws_.document(), *object),
-       settings = cut_settings(ws_.document(), *object)](const Job& job) {
-        job.progress("likelihood", 0);
-        const auto likelihood =
-            std::make_shared<const std::vector<float>>(session->likelihood_of(request, settings, job));
-        if (job.cancelled()) return;
-        ws_.tasks.post([change, likelihood] { change([&](CutRun* run) { run->likelihood = likelihood; }); });
-      });
+  ws_.tasks.submit({TaskKind::kCut, failed}, [this, change, order = order_for(*object)](const Job& job) {
+    job.progress("likelihood", 0);
+    const auto likelihood = std::make_shared<const std::vector<float>>(
+        order.session->likelihood_of(order.request, order.settings, job));
+    if (job.cancelled()) return;
+    ws_.tasks.post([change, likelihood] { change([&](CutRun* run) { run->likelihood = likelihood; }); });
+  });
 }
 
 }  // namespace splatcut

@@ -275,7 +275,8 @@ void Session::make_ready(const CameraStroke& click, const CutSettings& settings,
 }
 
 std::vector<GivenView> Session::look_around(const CutRequest& request, const CutResult& result,
-                                            const CutSettings& settings, int views, const Job& job) {
+                                            const CutSettings& settings, int views, const Job& job,
+                                            std::span<const std::uint8_t> before) {
   std::vector<GivenView> around;
   const auto reference = reference_of(request, strokes_by_view(request.strokes));
   const ObjectExtent extent = object_extent(*scene_.cloud, result.labels);
@@ -289,8 +290,12 @@ std::vector<GivenView> Session::look_around(const CutRequest& request, const Cut
     if (job.cancelled()) break;
     if (std::ranges::any_of(result.views, [&](const ViewReport& v) { return same_view(v.camera, camera); }))
       continue;
-    Mask seen = thresholded(render_labels(drawer, camera, result.labels, job), 0.5f);
-    if (count(seen) > 0) around.push_back({camera, std::move(seen)});
+    const auto shown = [&](std::span<const std::uint8_t> labels) {
+      return thresholded(render_labels(drawer, camera, labels, job), 0.5f);
+    };
+    Mask seen = shown(result.labels);
+    if (count(seen) > 0 || (!before.empty() && count(shown(before)) > 0))
+      around.push_back({camera, std::move(seen)});
   }
   return around;
 }

@@ -91,9 +91,10 @@ class Session {
 
   // At most `views` views around a cut object to look from, each with the mask of its labels; cameras as
   // cut() would try them first. They influence no cut. Excludes the result's own views and those that show
-  // nothing of the object. Cancelled: must not be used.
+  // nothing of the object, nor of what it was before: labels, or empty. Cancelled: must not be used.
   std::vector<GivenView> look_around(const CutRequest& request, const CutResult& result,
-                                     const CutSettings& settings, int views, const Job& job = {});
+                                     const CutSettings& settings, int views, const Job& job = {},
+                                     std::span<const std::uint8_t> before = {});
 
   std::size_t neighbourhoods() const { return locals_.size(); }  // that are kept
 

@@ -38,6 +38,73 @@ Document with_click(Document document, const glm::vec2& pixel) {
 
 }  // namespace
 
+TEST_CASE("history: the state before the last stroke, whatever size that has, and none after other edits") {
+  History history;
+  const auto before = [&](ObjectId object = 1) { return before_last_stroke(history, object); };
+  const auto state = [&](std::size_t entry) { return &history.entries()[entry].document; };
+  const auto push = [&](const char* title, const Document& document) {
+    history.push(title, document);
+    history.set_cut(1, history.keys(*history.now().find(1)).cut, make_flags({1, 0}));
+  };
+  const auto with_size = [&](int step) {
+    Document document = history.now();
+    last_stroke(&document.find(1)->views)->size_step = step;
+    return document;
+  };
+  CHECK(before() == nullptr);
+  push("Click: object", with_click({}, {30, 20}));  // 1
+  CHECK(before() == nullptr);
+  push("Larger part", with_size(1));  // 2
+  push("Larger part", with_size(2));  // 3
+  CHECK(before() == state(1));        // in its own size
+  push("Smaller part", with_size(0));
+  CHECK(before() == state(1));
+  push("Click: object", with_click(history.now(), {20, 20}));  // 5
+  CHECK(before() == state(4));
+  push("Smaller part", with_size(-1));
+  push("Smaller part", with_size(-2));
+  CHECK(before() == state(4));
+  Document document = history.now();
+  document.find(1)->visible = false;
+  push("Hide", document);  // 8
+  CHECK(before() == state(4));
+  document.find(1)->smoothness = 0.5f;
+  push("Smoothness", document);  // 9
+  CHECK(before() == nullptr);
+  history.undo();
+  CHECK(before() == state(4));
+  document = history.now();
+  document.find(1)->hand = make_flags({1, 1});
+  push("Add", document);  // 9
+  CHECK(before() == nullptr);
+  push("Larger part", with_size(-1));  // 10
+  CHECK(before() == state(9));         // what the hand did is none of it
+  push("Click: object", with_click(history.now(), {10, 20}));
+  CHECK(before() == state(10));
+  document = history.now();
+  document.deleted = make_flags({0, 1});
+  push("Delete", document);
+  CHECK(before() == nullptr);
+  history.jump(2);
+  CHECK(before() == state(1));
+  document = history.now();
+  document.find(1)->choice = 1;
+  push("Other meaning", document);  // 3
+  CHECK(before() == nullptr);
+  CHECK(before(7) == nullptr);
+}
+
+TEST_CASE("history: before a stroke stands what was shown, also where a cut was never made") {
+  History history;
+  history.push("Click: object", with_click({}, {30, 20}));
+  history.push("Click: object", with_click(history.now(), {20, 20}));
+  CHECK(before_last_stroke(history, 1) == nullptr);  // nothing was shown before
+  history.set_cut(1, history.keys(*history.now().find(1)).cut, make_flags({1, 0}));
+  history.push("Click: rest", with_click(history.now(), {10, 20}));
+  history.push("Click: rest", with_click(history.now(), {12, 20}));
+  CHECK(before_last_stroke(history, 1) == &history.entries()[3].document);
+}
+
 TEST_CASE("history: rows of the list that are called alike say which object and which stroke") {
   History history;
   Document document = with_click({}, {30, 20});

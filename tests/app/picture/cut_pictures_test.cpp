@@ -197,7 +197,7 @@ TEST_CASE("thumbnails: sides that no picture of the capture shows are in doubt, 
     request.strokes = {{all[0], {click(kOnMug, SeedLabel::kObject)}, {}}};
     const CutSettings settings = {};
     const CutResult result = session.cut(request, settings);
-    const std::vector<ViewCard> cards = picture_cards(session, request, settings, result, {}, {});
+    const std::vector<ViewCard> cards = picture_cards(session, {request, settings, result}, {});
     REQUIRE(cards.size() == 7);
     std::size_t marked = 0;
     for (const ViewCard& card : cards) {

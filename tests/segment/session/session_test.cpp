@@ -12,6 +12,7 @@
 #include "scene/still_life/still_life.h"
 #include "segment/masks/mask_tools.h"
 #include "segment/session/doubts.h"
+#include "segment/superpoints/orbit.h"
 
 using namespace splatcut;
 
@@ -555,6 +556,17 @@ TEST_CASE("session: views to look from show the labels, and have no say") {
     CHECK(iou(view.mask,
               thresholded(render_labels(*small_table().cloud, view.camera, result.labels), 0.5f)) == 1);
   }
+  // A small piece that is seen from one side: where it was more before, all sides are asked for.
+  CutResult piece = result;
+  const Camera& eye = request.strokes.front().camera;
+  const ObjectExtent all = object_extent(*small_table().cloud, result.labels);
+  for (std::size_t g = 0; g < piece.labels.size(); ++g)
+    piece.labels[g] &= glm::dot(small_table().cloud->position[g] - all.centre_world, eye.forward_world()) <
+                       -0.5f * all.radius;
+  const auto of_piece = session.look_around(request, piece, settings, 6);
+  const auto of_both = session.look_around(request, piece, settings, 6, {}, result.labels);
+  CHECK(of_piece.size() < of_both.size());
+  CHECK(std::ranges::any_of(of_both, [](const GivenView& v) { return count(v.mask) == 0; }));
   CutRequest more = request;
   more.strokes.push_back(stroke_from_behind("apple", SeedLabel::kRest));
   CHECK(session.cut(more, settings).labels == fresh_session().cut(more, settings).labels);

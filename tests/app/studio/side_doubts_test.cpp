@@ -1,0 +1,128 @@
+// What the window says and shows of sides that a stroke changed out of its sight, through undo, edits by hand
+// and saved work.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "app/document/selection.h"
+#include "app/studio/cut_sentences.h"
+#include "hands.h"
+
+using namespace splatcut;
+using namespace splatcut::testing;
+
+namespace {
+
+constexpr const char* kTookFarSide = "what is red here was taken away, unseen from where you clicked or drew";
+
+const std::vector<ViewCard>& cards(HeadlessApp& app) {
+  return app.studio().cuts().run(app.studio().document().active)->views;
+}
+
+std::ptrdiff_t of_stroke(HeadlessApp& app) {
+  return std::ranges::count_if(cards(app), &ViewCard::doubt_of_stroke);
+}
+
+// In no order: that depends on what was shown before.
+std::vector<std::vector<Rgba8>> pixels(HeadlessApp& app) {
+  std::vector<std::vector<Rgba8>> all;
+  for (const ViewCard& card : cards(app))
+    all.emplace_back(card.picture->pixels().begin(), card.picture->pixels().end());
+  std::ranges::sort(all);
+  return all;
+}
+
+void click_on(Hands& hands, const glm::vec2& thing, PointerButton button) {
+  hands.app.click(hands.app.screen_of(thing), button);
+  REQUIRE(hands.app.settle());
+}
+
+}  // namespace
+
+TEST_CASE("sides: a right click that takes far sides is told of, and the pictures say where") {
+  Hands hands = hands_on_sample();
+  for (const glm::vec2& thing : {kOnOrange, kOnMug}) {
+    CAPTURE(thing.x);
+    click_on(hands, thing, PointerButton::kLeft);
+    CHECK(std::ranges::count(cards(hands.app), kTookFarSide, &ViewCard::doubt) == 0);
+    click_on(hands, thing, PointerButton::kRight);
+    CHECK(of_stroke(hands.app) >= 2);
+    CHECK(cards(hands.app).front().doubt != kTookFarSide);
+    CHECK(tip_of_card(cards(hands.app).front(), 0, true).find("\nRed left") != std::string::npos);
+    CHECK(std::ranges::count(cards(hands.app), kTookFarSide, &ViewCard::doubt) == of_stroke(hands.app));
+    CHECK(hands.said().find("sides are in doubt, marked in the pictures below") != std::string::npos);
+  }
+  // The next answer ends the doubt, before its own pictures are there.
+  Studio& studio = hands.studio();
+  const std::uint64_t done = studio.cuts().done();
+  studio.apply(AddStroke{studio.viewport().pane_camera(),
+                         click(hands.in_viewport(hands.app.screen_of(kOnOrange)), SeedLabel::kObject)});
+  while (studio.cuts().done() == done) studio.update(1.0 / 60);
+  CHECK(std::ranges::count(cards(hands.app), kTookFarSide, &ViewCard::doubt) == 0);
+}
+
+TEST_CASE("sides: pictures show the change that led to what undo, redo and saved work show") {
+  Hands hands = hands_on_sample();
+  const auto apple = pixels(hands.app);
+  click_on(hands, kOnOrange, PointerButton::kLeft);
+  const auto both = pixels(hands.app);
+  click_on(hands, kOnOrange, PointerButton::kRight);
+  const auto less = pixels(hands.app);
+  const auto marks = of_stroke(hands.app);
+  REQUIRE(marks > 0);
+  const auto after = [&](const Command& command) {
+    hands.studio().apply(command);
+    REQUIRE(hands.app.settle());
+    return pixels(hands.app);
+  };
+  CHECK(after(Undo{}) == both);
+  CHECK(after(Undo{}) == apple);
+  CHECK(after(Redo{}) == both);
+  CHECK(after(Redo{}) == less);
+  CHECK(of_stroke(hands.app) == marks);
+  // A name changes nothing; a rectangle over the mug is no stroke, and its undo shows the stroke again.
+  CHECK(after(RenameObject{hands.studio().document().active, "apple"}) == less);
+  const Camera camera = hands.studio().viewport().pane_camera();
+  const glm::vec2 at = hands.in_viewport(hands.app.screen_of(kOnMug));
+  CHECK(after(SelectRegion{
+            camera, rectangle_region(at - 10.0f, at + 10.0f, camera.width_px, camera.height_px)}) != less);
+  CHECK(of_stroke(hands.app) == 0);
+  CHECK(after(Undo{}) == less);
+
+  const ScratchFolder folder("sides");
+  const auto file = folder / "sides.splatcut.json";
+  hands.studio().apply(SaveWork{file});
+  REQUIRE(hands.app.settle());
+  HeadlessApp again(kHandsWidth, kHandsHeight);
+  again.open(file);
+  REQUIRE(again.settle());
+  CHECK(cards(again).size() == less.size());
+  CHECK(of_stroke(again) == 0);  // the file has not what was before
+}
+
+TEST_CASE("sides: in whatever steps the wheel came to a size, the pictures show the same change") {
+  Hands hands = hands_on_sample();
+  const auto own = pixels(hands.app);
+  const auto after = [&](int key) {
+    hands.app.key(key);
+    REQUIRE(hands.app.settle());
+    return pixels(hands.app);
+  };
+  const auto smaller = after(key::kPageDown);
+  for (const bool again : {false, true}) {  // in the same words
+    CAPTURE(again);
+    CHECK(std::ranges::count(cards(hands.app), kTookFarSide, &ViewCard::doubt) > 0);
+    CHECK(hands.said().find("sides are in doubt, marked in the pictures below") != std::string::npos);
+    if (again) break;
+    hands.studio().apply(Undo{});
+    REQUIRE(hands.app.settle());
+    CHECK(after(key::kPageDown) == smaller);
+  }
+  const auto smallest = after(key::kPageDown);
+  CHECK(smallest != smaller);
+  CHECK(after(key::kPageUp) == smaller);
+  CHECK(after(key::kPageUp) == own);
+  CHECK(of_stroke(hands.app) == 0);
+}
