@@ -22,12 +22,12 @@ std::uint64_t inode_of(const fs::path& path) {
   return ::lstat(path.c_str(), &status) == 0 ? status.st_ino : 0;
 }
 
-std::vector<fs::path> names_in(const fs::path& folder) {
+std::vector<fs::path> names_in(const fs::path& folder, const char* remedy = "") {
   std::vector<fs::path> names;
   std::error_code failure;
   for (fs::directory_iterator at(folder, failure), end; !failure && at != end; at.increment(failure))
     names.push_back(at->path().filename());
-  if (failure) throw Error(folder.string(), "cannot be read (" + failure.message() + ")");
+  if (failure) throw Error(folder.string(), "cannot be read (" + failure.message() + ")", remedy);
   return names;
 }
 
@@ -91,10 +91,12 @@ void link_other_files(const fs::path& from, const fs::path& to) {
 
 // From the folder that was replaced. Files whose place is taken are older ones of ours.
 void bring_back(const fs::path& from, const fs::path& to) {
-  for (const fs::path& name : names_in(from))
+  constexpr const char* kRemedy =
+      "The output is written; what others had in it lies there, and the next run brings it back";
+  for (const fs::path& name : names_in(from, kRemedy))
     if (inode_of(to / name) == 0) move(from / name, to / name);
   std::error_code failure;
-  for (const fs::path& name : names_in(from))
+  for (const fs::path& name : names_in(from, kRemedy))
     if (are_folders(from / name, to / name))
       bring_back(from / name, to / name);
     else if (!fs::remove(from / name, failure))

@@ -178,6 +178,12 @@ struct ChooseMeaning {
   std::string title(const Document& document) const;  // says whether a click or a box is meant
   friend std::string edit(Document* document, const ChooseMeaning& command, const EditContext& context);
 };
+struct RemoveStroke {  // takes one click of the active object away, as if it had never been made
+  std::size_t view = 0, stroke = 0;  // indices into ObjectItem::views and the strokes of that
+  glm::vec2 at_px{0};                // its place, by which it is known
+  std::string title() const { return "Click taken away"; }
+  friend std::string edit(Document* document, const RemoveStroke& command, const EditContext& context);
+};
 struct ClearStrokes {
   std::string title() const { return "Clear strokes"; }
   friend std::string edit(Document* document, const ClearStrokes& command, const EditContext& context);
@@ -406,12 +412,12 @@ struct SaveTurntable {
 using Command =
     std::variant<AddStroke, IntersectStroke, AddBox, SelectRegion, SelectVolume, SelectColour, PickColour,
                  SelectFlood, SelectScene, SelectRange, ShowRange, EditSelection, ShowPlaced, ShowFloaters,
-                 StepScale, ChooseMeaning, ClearStrokes, ComeNearer, NewObject, RemoveObject, RenameObject,
-                 RecolourObject, ShowObject, LockObject, ActivateObject, MergeObjects, SplitObject,
-                 DuplicateObject, SeparateObject, LeaveToOthers, DeleteSelected, RestoreDeleted, LeaveOutView,
-                 SetSmoothness, SetPreset, SetBackground, SetUp, CleanAnyway, Undo, Redo, JumpHistory, Cancel,
-                 Recompute, SetView, GoToCamera, LookAlong, NextBackdrop, SetBackdrop, SetFieldOfView,
-                 OpenScene, AddScene, PlaceScene, BringHere, RemoveScene, SaveWork, DropAutosave, Export,
-                 SaveSnapshot, SaveTurntable>;
+                 StepScale, ChooseMeaning, RemoveStroke, ClearStrokes, ComeNearer, NewObject, RemoveObject,
+                 RenameObject, RecolourObject, ShowObject, LockObject, ActivateObject, MergeObjects,
+                 SplitObject, DuplicateObject, SeparateObject, LeaveToOthers, DeleteSelected, RestoreDeleted,
+                 LeaveOutView, SetSmoothness, SetPreset, SetBackground, SetUp, CleanAnyway, Undo, Redo,
+                 JumpHistory, Cancel, Recompute, SetView, GoToCamera, LookAlong, NextBackdrop, SetBackdrop,
+                 SetFieldOfView, OpenScene, AddScene, PlaceScene, BringHere, RemoveScene, SaveWork,
+                 DropAutosave, Export, SaveSnapshot, SaveTurntable>;
 
 }  // namespace splatcut

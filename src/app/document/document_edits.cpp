@@ -69,6 +69,12 @@ StrokedView& view_for(ObjectItem* object, const Camera& camera, const Flags& see
   return views.back();
 }
 
+void forget_cut(ObjectItem* object) {
+  object->left_out.clear();
+  object->cut = nullptr;
+  object->cut_key.clear();
+}
+
 Selection inverted(const Selection& selection) {
   Selection out(selection.size());
   std::ranges::transform(selection, out.begin(), [](std::uint8_t s) { return s ? 0 : 1; });
@@ -173,15 +179,34 @@ std::string edit(Document* document, const AddBox& command, const EditContext& c
   return (first ? "Box around " : "Box: adds to ") + object.name;
 }
 
+std::string edit(Document* document, const RemoveStroke& command, const EditContext&) {
+  if (!document->active_object()) throw Error("", "No object is chosen");
+  ObjectItem& object = unlocked(document, document->active);
+  const auto known = [&] {
+    if (command.view >= object.views.size()) return false;
+    const Strokes& strokes = object.views[command.view].strokes;
+    return command.stroke < strokes.size() && strokes[command.stroke].points_px.front() == command.at_px;
+  };
+  if (!known()) throw Error("", "That click is not there any more");
+  const auto view = object.views.begin() + static_cast<std::ptrdiff_t>(command.view);
+  const auto gone = view->strokes.begin() + static_cast<std::ptrdiff_t>(command.stroke);
+  const bool first = &*gone == first_stroke(object.views);
+  view->strokes.erase(gone);
+  if (view->strokes.empty()) object.views.erase(view);
+  Stroke* next = first_stroke(&object.views);
+  if (first) object.choice = 0;
+  if (first && next) next->size_step = 0;  // it means by itself what it changed before
+  if (!next) forget_cut(&object);
+  return fmt::format("A click taken away: {} follows those that are left", object.name);
+}
+
 std::string edit(Document* document, const ClearStrokes&, const EditContext&) {
   if (!document->active_object()) throw Error("", "No object is chosen");
   ObjectItem& object = unlocked(document, document->active);
   if (object.views.empty()) throw Error(object.name, "has no strokes");
   object.views.clear();
-  object.left_out.clear();
   object.choice = 0;
-  object.cut = nullptr;
-  object.cut_key.clear();
+  forget_cut(&object);
   return "Strokes of " + object.name + " cleared";
 }
 

@@ -188,10 +188,16 @@ bool Clicks::asks_ahead() const {
   return viewport_.style_current() && viewport_.full_picture_of(viewport_.pane_camera());
 }
 
+const StrokeMark* Clicks::pointed_mark() const {
+  if (!pointer_inside_ || ws_.view.tool != Tool::kClick || ws_.tools.dragging() || ws_.tools.at_last_click())
+    return nullptr;
+  return viewport_.mark_at(ws_.tools.pointer_px());
+}
+
 // Nothing without a hit under the pointer.
 std::optional<Clicks::HoverAsk> Clicks::hover_wanted() const {
   // Where the wheel takes another size of the last click, that is outlined, not what the next one changes.
-  if (!pointer_inside_ || !asks_ahead() || (ws_.tools.scale_armed() && sizes())) return {};
+  if (!pointer_inside_ || !asks_ahead() || pointed_mark() || (ws_.tools.scale_armed() && sizes())) return {};
   const ObjectItem* active = ws_.document().active_object();
   const Camera camera = viewport_.pane_camera();
   const auto hit = viewport_.pick(ws_.tools.pointer_px());

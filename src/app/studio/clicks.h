@@ -43,6 +43,8 @@ class Clicks {
   const StrokeSizes* sizes() const;
   float sizes_opacity() const;                                             // opacity of sizes(), from 1 to 0
   bool sizes_fade() const { return sizes() && !ws_.tools.scale_armed(); }  // true: it changes with time
+  // Mark under the pointer, whose click one of the other label would take away; null: none.
+  const StrokeMark* pointed_mark() const;
   // True if the active object's clicks found nothing, mostly because they were made from too far away.
   bool found_nothing() const;
   // Returns a refusal if the last click is known to have no part that many sizes larger; else empty.

@@ -50,6 +50,7 @@ void Viewport::change_scene() {
   styles_on_the_way_ = floaters_shown_ = false;
   range_shown_.reset();
   picture_.reset();
+  stroke_marks_.forget();
   camera_.change_scene(ws_.scene->bounds);
 }
 
@@ -96,6 +97,7 @@ bool Viewport::update(double seconds, const Flight& flight) {
   request_styles();
   take_picture();  // first: no picture is shown in the frame that asked for it
   request_picture();
+  refresh_marks();
   return flies || travels;
 }
 
@@ -357,7 +359,23 @@ ToolContext Viewport::tool_context(const glm::vec2& pixel) {
           pixels_per_point_,
           [this](const glm::vec2& at) { return pick(at); },
           [this](const glm::vec2& at) { return depth_on_screen(at); },
-          [this, pane] { return seen(pane); }};
+          [this, pane] { return seen(pane); },
+          [this](const glm::vec2& at, SeedLabel label) -> std::optional<RemoveStroke> {
+            const StrokeMark* mark = mark_at(at);
+            if (!mark || mark->object == (label == SeedLabel::kObject)) return {};
+            return RemoveStroke{mark->view, mark->stroke, mark->made_px};
+          }};
+}
+
+void Viewport::refresh_marks() {
+  marks_.clear();
+  const ObjectItem* object = ws_.scene ? ws_.document().active_object() : nullptr;
+  if (!object) return;
+  const auto hit = [this](const Camera& camera, const glm::vec2& pixel, const Flags& visible) {
+    return hit_in(camera, pixel, visible);
+  };
+  marks_ = stroke_marks_.in(*object, pane_camera(),
+                            {hit, [this](const glm::vec2& at) { return depth_on_screen(at); }});
 }
 
 }  // namespace splatcut

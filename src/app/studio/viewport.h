@@ -14,6 +14,7 @@
 #include "app/picture/styles.h"
 #include "app/studio/cut_jobs.h"
 #include "app/studio/workspace.h"
+#include "app/tools/stroke_marks.h"
 #include "scene/raster/rasterizer.h"
 
 namespace splatcut {
@@ -119,11 +120,18 @@ class Viewport {
   // moves, the picture lags behind, and so does the answer.
   std::optional<float> depth_on_screen(const glm::vec2& pixel) const;
   ToolContext tool_context(const glm::vec2& pixel);
+  // Marks of the active object's clicks, in the pixels of the first pane. mark_at(): the one under a pixel;
+  // null: none is, or there are two panes.
+  const std::vector<StrokeMark>& marks() const { return marks_; }
+  const StrokeMark* mark_at(const glm::vec2& pixel) const {
+    return panes() == 1 ? splatcut::mark_at(marks_, pixel, pixels_per_point_) : nullptr;
+  }
 
  private:
   void request_styles();
   void request_picture();
   void take_picture();
+  void refresh_marks();
 
   Workspace& ws_;
   const CutJobs& cuts_;
@@ -131,6 +139,8 @@ class Viewport {
   int width_px_ = 0, height_px_ = 0;
   float covered_bottom_px_ = 0, kept_bottom_px_ = 0, pixels_per_point_ = 1;
   bool gpu_view_ = false;
+  StrokeMarks stroke_marks_;
+  std::vector<StrokeMark> marks_;
   int pressed_pane_ = 0;  // pane in which a button was pressed last
 
   Styles styles_;

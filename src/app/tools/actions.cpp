@@ -38,7 +38,7 @@ constexpr std::array kOwnBindings = {
     Binding{Action::kRedo, 'Z', kCtrlShift, "Edit", "Redo"},
     Binding{Action::kRedo, 'Y', kCtrl, "Edit", "Redo"},
     Binding{Action::kHistory, 'U', kCtrl, "Edit", "Show or hide the history"},
-    Binding{Action::kCancel, key::kEscape, kPlain, "Edit", "Cancel the job, the shape, then the tool"},
+    Binding{Action::kCancel, key::kEscape, kPlain, "Edit", "Cancel the job or the shape; then back to Click"},
     Binding{Action::kRecompute, 'R', kPlain, "Edit", "Compute the cutout again"},
     Binding{Action::kCursor, key::kLeft, kPlain, kTools, kMovesCursor},
     Binding{Action::kCursor, key::kRight, kPlain, kTools, kMovesCursor},

@@ -62,7 +62,8 @@ std::vector<Command> PointerTools::move(const glm::vec2& pixel, const Modifiers&
   const glm::vec2 delta = pixel - state_.pointer_px;
   const float per_point = context.pixels_per_point;
   state_.pointer_px = pixel;
-  if (glm::length(pixel - state_.scale_at_px) > kScaleLeavePoints * per_point) state_.scale_armed = false;
+  if (glm::length(pixel - state_.scale_at_px) > kScaleLeavePoints * per_point)
+    state_.scale_armed = state_.at_last_click = false;
   if (!state_.button) return {};
   state_.modifiers = modifiers;
   if (drag_ == Drag::kMaybeClick && glm::length(pixel - state_.pressed_px) > kDragPoints * per_point) {

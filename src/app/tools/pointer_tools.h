@@ -30,7 +30,9 @@ class PointerTools {
   bool at_work() const { return !state_.path_px.empty() || !state_.corners_px.empty(); }
   bool moves_camera() const { return drag_ == Drag::kOrbit || drag_ == Drag::kPan; }
   bool scale_armed() const { return state_.scale_armed; }  // true: the wheel steps through parts
-  void disarm_scale() { state_.scale_armed = false; }      // the click has none: the wheel zooms
+  // True: the pointer has not left the place of the last click, whose mark it does not mean.
+  bool at_last_click() const { return state_.at_last_click; }
+  void disarm_scale() { state_.scale_armed = false; }  // the click has none: the wheel zooms
   const glm::vec2& pointer_px() const { return state_.pointer_px; }
   void hold(const Modifiers& modifiers);  // sets the keys that are held now, unless a drag goes on
   ToolOverlay overlay(const ViewState& view, const Camera& camera, float pixels_per_point) const;

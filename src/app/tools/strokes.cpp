@@ -18,12 +18,18 @@ Icon arrow_with_rays() {
 
 void click_object(ToolHand& hand) {
   ToolState& state = hand.state;
-  Stroke stroke = click(hand.at_px, state.rest() ? SeedLabel::kRest : SeedLabel::kObject);
-  stroke.radius_px *= hand.context.pixels_per_point;
-  if (!state.modifiers.alt) {
-    state.scale_armed = true;
-    state.scale_at_px = hand.at_px;
+  const SeedLabel label = state.rest() ? SeedLabel::kRest : SeedLabel::kObject;
+  const bool never = state.at_last_click || state.modifiers.alt;
+  const auto gone = never ? std::nullopt : hand.context.contradicted(hand.at_px, label);
+  state.at_last_click = true;
+  state.scale_at_px = hand.at_px;
+  if (gone) {
+    state.scale_armed = false;
+    return hand.ask(*gone);
   }
+  Stroke stroke = click(hand.at_px, label);
+  stroke.radius_px *= hand.context.pixels_per_point;
+  if (!state.modifiers.alt) state.scale_armed = true;
   hand.ask_stroke(std::move(stroke));
 }
 
@@ -43,7 +49,8 @@ constinit const Tool Tool::kClick = {
     .key = '2',
     .sentence =
         "Left click: this is the object. Right click (or Ctrl): this is not. The wheel right after it takes "
-        "more or less. Dragging turns the view.",
+        "more or less. A right click on the dot of a click (left: of a right one) takes that click away. "
+        "Dragging turns the view.",
     .hint =
         "left click: object   right click: rest   wheel after it: more or less   Alt: intersect   drag: turn",
     .icon = arrow_with_rays,

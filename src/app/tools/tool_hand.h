@@ -33,6 +33,8 @@ struct ToolContext {
   // Camera z of the surface under a pixel, scene units; none: it is not known.
   std::function<std::optional<float>(const glm::vec2& pixel)> depth;
   std::function<Flags()> seen;  // Gaussians that the pane shows; null: all
+  // Takes away the click of the other label whose mark is under a pixel; none: no such mark is.
+  std::function<std::optional<RemoveStroke>(const glm::vec2& pixel, SeedLabel label)> contradicted;
 };
 
 // Marks that the interface draws over the picture while a tool is at work.
@@ -66,6 +68,7 @@ struct ToolState {
   std::optional<std::size_t> handle;             // handle that is dragged
   bool scale_armed = false;                      // true: the wheel steps through parts ...
   glm::vec2 scale_at_px{0};                      // ... as long as the pointer stays near here
+  bool at_last_click = false;                    // true: it has not left the place of the last click
 
   bool right() const { return button == PointerButton::kRight; }
   bool rest() const { return right() || modifiers.ctrl; }

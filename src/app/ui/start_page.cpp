@@ -58,10 +58,10 @@ void opening(UiContext& ui, float width) {
 // A row for each: the whole row restores it, the button at its end throws it away.
 void left_work_list(UiContext& ui) {
   constexpr float kThrow = 34;
-  constexpr std::size_t kMostShown = 5;
+  const std::size_t most_shown = ui.studio.scene() ? 2 : 5;  // beside a scene the panel is for its objects
   const std::vector<LeftWork>& offers = ui.studio.work().offers();
   wrapped_muted(ui, "Not saved when the program ended. Click to restore:");
-  for (std::size_t i = 0; i < std::min(offers.size(), kMostShown); ++i) {
+  for (std::size_t i = 0; i < std::min(offers.size(), most_shown); ++i) {
     const LeftWork& left = offers[i];
     ImGui::PushID(left.file.c_str());
     bool restore = left_picture(ui, left);
@@ -84,9 +84,9 @@ void left_work_list(UiContext& ui) {
     ImGui::PopStyleVar();
     ImGui::PopID();
   }
-  if (offers.size() > kMostShown)
+  if (offers.size() > most_shown)
     wrapped_muted(ui,
-                  fmt::format("and {} older, offered once these are done with", offers.size() - kMostShown));
+                  fmt::format("and {} older, offered once these are done with", offers.size() - most_shown));
 }
 
 void recent_list(UiContext& ui) {

@@ -189,7 +189,7 @@ std::optional<std::string> why_edges_stay(const UiContext& ui) {
   const std::optional<CleanReport> clean =
       ui.studio.view().clean_edges ? ui.studio.clean_edges() : std::nullopt;
   if (!clean || clean->cleaned || clean->views == 0) return {};
-  return "Edges stay: " + clean->short_reason() + '.';
+  return "Edges not cleaned: " + clean->short_reason() + '.';
 }
 
 void clean_anyway_button(UiContext& ui) {

@@ -77,6 +77,16 @@ void draw_click(ImDrawList& list, const ImVec2& at, bool object, float opacity) 
   if (object) list.AddLine({at.x, at.y - 2.5f}, {at.x, at.y + 2.5f}, sign, 1.5f);
 }
 
+// The click under the pointer, which can be taken away.
+void draw_pointed_click(ImDrawList& list, const ImVec2& at, bool object) {
+  constexpr float kArm = 3.2f;
+  const ImU32 sign = IM_COL32(10, 20, 10, 255);
+  list.AddCircleFilled(at, 10, IM_COL32(255, 255, 255, 235));
+  list.AddCircleFilled(at, 8, object ? kObjectInk : kRestInk);
+  list.AddLine({at.x - kArm, at.y - kArm}, {at.x + kArm, at.y + kArm}, sign, 2);
+  list.AddLine({at.x - kArm, at.y + kArm}, {at.x + kArm, at.y - kArm}, sign, 2);
+}
+
 // An isolated object is not painted over, unless it is being repaired.
 bool strokes_wanted(const ViewState& view) {
   return tool_of(view.tool).strokes || (view.display == DisplayMode::kWhole && !view.heat);
@@ -125,8 +135,8 @@ void dashed(ImDrawList& list, const std::vector<ImVec2>& path, ImU32 ink, float 
 
 }  // namespace
 
-// Strokes are kept per view: they show where the camera stands as it did when they were drawn. They fade
-// where the object is looked at alone.
+// Scribbles and boxes are kept per view: they show where the camera stands as it did when they were drawn;
+// clicks wherever they are in sight. They fade where the object is looked at alone.
 void draw_strokes(const UiContext& ui, const UiRect& area) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const OnScreen place = on_screen(ui, area);
@@ -138,11 +148,8 @@ void draw_strokes(const UiContext& ui, const UiRect& area) {
     if (!same_pose(view.camera, now)) continue;
     const OnScreen there = placement_of(view.camera, now, place);
     for (const Stroke& stroke : view.strokes) {
+      if (stroke.is_click()) continue;
       const bool is_object = stroke.label == SeedLabel::kObject;
-      if (stroke.is_click()) {
-        draw_click(list, there(stroke.points_px.front()), is_object, opacity);
-        continue;
-      }
       const ImU32 ink = faded(is_object ? kObjectInk : kRestInk, opacity);
       if (stroke.is_box()) {
         list.AddRect(there(stroke.points_px[0]), there(stroke.points_px[1]), ink, 0, 0, 2);
@@ -151,6 +158,13 @@ void draw_strokes(const UiContext& ui, const UiRect& area) {
       smooth_path(list, placed(stroke.points_px, there), faded(ink, 0.56f),
                   std::max(2.0f, 2 * stroke.radius_px * there.points_per_pixel));
     }
+  }
+  constexpr float kFromElsewhere = 0.6f;
+  for (const StrokeMark& mark : ui.studio.viewport().marks())
+    draw_click(list, place(mark.at_px), mark.object, mark.from_here ? opacity : kFromElsewhere * opacity);
+  if (const StrokeMark* mark = ui.studio.clicks().pointed_mark(); mark && pointed_at(ui, area)) {
+    draw_pointed_click(list, place(mark->at_px), mark->object);
+    ImGui::SetTooltip("%s click: takes this click away", mark->object ? "Right" : "Left");
   }
 }
 

@@ -52,11 +52,10 @@ void keep_best(std::vector<OwnView>* views) {
 }
 
 std::string why_not(const CleanReport& report) {
-  return report.short_reason() +
-         (report.views < kLeastViews
-              ? fmt::format("; it takes {} from which it shows as much", kLeastViews)
-              : ": what is hidden there is selected, too, or a piece before it is missing; they are cleaned "
-                "once that is mended");
+  return report.short_reason() + (report.views < kLeastViews
+                                      ? fmt::format("; it takes {} from which it shows as much", kLeastViews)
+                                      : "; hidden pieces are selected, too, or one before them is missing: "
+                                        "take them away, or add it");
 }
 
 // Steps 1 to 3, or the last two alone; `kept` says what left. Returns what was cut off.
@@ -125,7 +124,7 @@ CleanObject cleaned(const CleanInput& input, std::span<const Camera> cameras, co
 
 std::string CleanReport::short_reason() const {
   if (views >= kLeastViews || agreed < views)
-    return fmt::format("from {} of {} side{} it shows more alone than in the scene", views - agreed, views,
+    return fmt::format("from {} of {} side{} it would show what the scene hides", views - agreed, views,
                        views == 1 ? "" : "s");
   return fmt::format("it is seen from {} side{} only", views, views == 1 ? "" : "s");
 }

@@ -156,10 +156,11 @@ class Bench {
     ends->left += left;
     ++(result.code == 0 ? ends->new_unsaid : is == old_ ? ends->old_said : ends->new_said);
     ends->runs += reached;
-    // Left until the next run: what may not be removed; a folder of others that may not be moved, which is
-    // said.
+    // Left until the next run: what may not be removed; folders of others that may not be moved or looked
+    // into, which is said.
     const bool may_stay = fault.call == "remove" || fault.how == kNothingLeft;
-    if (!may_stay && !(fault.call == "rename" && result.code == 1 && is == new_)) CHECK(!left);
+    const bool of_others = fault.call == "rename" || fault.call == "open";
+    if (!may_stay && !(of_others && result.code == 1 && is == new_)) CHECK(!left);
     check_others();
     if (left || !has_others()) {
       run_well(deed_.now);

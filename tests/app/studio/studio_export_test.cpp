@@ -237,7 +237,7 @@ TEST_CASE("hands: the rest is exported without ghosts, or with all its rows") {
 TEST_CASE("exports: what is said of them names objects whose edges stay, and promises no number of a hole") {
   CleanReport good, bad, other;
   good.cleaned = true;
-  bad.reason = "from 2 of 7 sides it shows more alone than in the scene";
+  bad.reason = "from 2 of 7 sides it would show what the scene hides";
   other.reason = "3 Gaussians have no edges";
   ExportReport one;
   count_edges(bad, &one);

@@ -54,7 +54,7 @@ class Fuzz {
       case 11:
         return studio_.apply(StepScale{chance(50) ? 1 : -1});
       case 12:
-        return studio_.apply(ClearStrokes{});
+        return chance(30) ? studio_.apply(ClearStrokes{}) : studio_.apply(some_stroke_away());
       case 13:
         return studio_.apply(NewObject{chance(30) ? object() : 0});
       case 14:
@@ -118,6 +118,13 @@ class Fuzz {
   Camera view() {
     const CutRun* run = studio_.cuts().run(studio_.document().active);
     return run && !run->views.empty() && chance(80) ? run->views[whole(run->views.size())].camera : camera();
+  }
+  // Mostly of one that is there, whatever stroke it is.
+  RemoveStroke some_stroke_away() {
+    const ObjectItem* active = studio_.document().active_object();
+    if (!active || active->views.empty() || chance(10)) return {whole(3), whole(3), pixel()};
+    const std::size_t v = whole(active->views.size()), s = whole(active->views[v].strokes.size());
+    return {v, s, active->views[v].strokes[s].points_px.front()};
   }
   Stroke stroke() {
     Stroke s = click(pixel(), chance(60) ? SeedLabel::kObject : SeedLabel::kRest);

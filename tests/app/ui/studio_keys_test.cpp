@@ -94,10 +94,10 @@ const std::map<Action, Check> kChecks = {
     {Action::kUndo, [](HeadlessApp& app, const Before&) { return app.studio().history().can_redo(); }},
     {Action::kRedo, [](HeadlessApp& app, const Before&) { return !app.studio().history().can_redo(); }},
     {Action::kCancel,
-     [](HeadlessApp& app, const Before& before) {
-       if (app.studio().view().tool == before.view.tool)
-         app.key(key::kEscape);  // the first took the offer away
-       return app.studio().view().tool == Tool::kNavigate;
+     [](HeadlessApp& app, const Before&) {
+       app.key('5');  // the brush; the first Esc took the offer away
+       app.key(key::kEscape);
+       return app.studio().view().tool == Tool::kClick;
      }},
     {Action::kCursor, [](HeadlessApp& app, const Before&) { return app.studio().cursor_px().has_value(); }},
     {Action::kConfirm, selected([](auto now, auto before, auto) { return now > before; })},

@@ -203,9 +203,10 @@ TEST_CASE("the guard: labels that are not right yet leave the object as it is, a
   for (std::uint8_t& label : labels) label = label && random() % 2 == 0;  // every second of its Gaussians
   const CleanObject object = thing.clean(labels);
   CHECK_FALSE(object.report.cleaned);
-  CHECK(object.report.reason == object.report.short_reason() +
-                                    ": what is hidden there is selected, too, or a piece before it is "
-                                    "missing; they are cleaned once that is mended");
+  CHECK(object.report.reason ==
+        object.report.short_reason() +
+            "; hidden pieces are selected, too, or one before them is missing: take them "
+            "away, or add it");
   CHECK(object.report.left + object.report.split + object.report.made_solid + object.report.recoloured == 0);
   CHECK(same_rows(object.cloud, permuted(thing.scene.cloud, object.gaussian)));
   CHECK(static_cast<std::ptrdiff_t>(object.gaussian.size()) == std::ranges::count(labels, 1));
@@ -218,9 +219,9 @@ TEST_CASE("why it is not cleaned, in short: the sides that do not agree, or that
     report.agreed = agreed;
     return report.short_reason();
   };
-  CHECK(reason(12, 2) == "from 10 of 12 sides it shows more alone than in the scene");
-  CHECK(reason(4, 3) == "from 1 of 4 sides it shows more alone than in the scene");
-  CHECK(reason(1, 0) == "from 1 of 1 side it shows more alone than in the scene");
+  CHECK(reason(12, 2) == "from 10 of 12 sides it would show what the scene hides");
+  CHECK(reason(4, 3) == "from 1 of 4 sides it would show what the scene hides");
+  CHECK(reason(1, 0) == "from 1 of 1 side it would show what the scene hides");
   CHECK(reason(4, 4) == "it is seen from 4 sides only");
   CHECK(reason(1, 1) == "it is seen from 1 side only");
 }

@@ -1,0 +1,139 @@
+// Dots of clicks: where they show, and that a click on one takes its click away.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+#include "hands.h"
+
+using namespace splatcut;
+using namespace splatcut::testing;
+
+namespace {
+
+constexpr glm::vec2 kElsewhere{300, 60};
+
+std::vector<std::uint8_t> labels_of_active(Hands& hands) {
+  REQUIRE(hands.app.settle());
+  return hands.studio().labels(hands.studio().document().active);
+}
+
+std::size_t strokes(Hands& hands) {
+  return stroke_count(*hands.studio().document().active_object());
+}
+
+void go_away(Hands& hands) {
+  hands.app.move(hands.app->interface().viewport().min + kElsewhere);
+  hands.app.frames(2);
+}
+
+void click_again(Hands& hands, const glm::vec2& at, PointerButton button = PointerButton::kRight) {
+  go_away(hands);
+  hands.app.click(at, button);
+  REQUIRE(hands.app.settle());
+}
+
+void turn(Hands& hands, float points) {
+  const glm::vec2 from = hands.app->interface().viewport().min + glm::vec2(80, 250);
+  hands.app.drag({from, from + glm::vec2(0.5f * points, 0), from + glm::vec2(points, 0)},
+                 PointerButton::kMiddle);
+  REQUIRE(hands.app.settle());
+  hands.app.frames(2);
+}
+
+}  // namespace
+
+TEST_CASE("marks: a click on the dot of a click takes that away, whichever it is") {
+  Hands hands;
+  const auto apple = labels_of_active(hands);
+  const glm::vec2 on_apple = hands.app.screen_of(kOnApple), on_orange = hands.app.screen_of(kOnOrange);
+  hands.app.click(on_orange);
+  const auto both = labels_of_active(hands);
+  REQUIRE(both != apple);
+  SUBCASE("the last one; undo brings it back") {
+    click_again(hands, on_orange);
+    CHECK(strokes(hands) == 1);
+    CHECK(labels_of_active(hands) == apple);
+    hands.app.key('Z', {.ctrl = true});
+    CHECK(strokes(hands) == 2);
+    CHECK(labels_of_active(hands) == both);
+  }
+  SUBCASE("a right click, by a left one; a second of its own kind is one more") {
+    const glm::vec2 beside = on_orange + glm::vec2(0, 14);
+    click_again(hands, beside, PointerButton::kRight);
+    REQUIRE(strokes(hands) == 3);
+    click_again(hands, beside, PointerButton::kRight);
+    CHECK(strokes(hands) == 4);
+    click_again(hands, beside, PointerButton::kLeft);
+    click_again(hands, beside, PointerButton::kLeft);
+    CHECK(strokes(hands) == 2);
+    CHECK(labels_of_active(hands) == both);
+  }
+  SUBCASE("the first one: what is left means what it means by itself") {
+    click_again(hands, on_apple);
+    CHECK(strokes(hands) == 1);
+    const auto left = labels_of_active(hands);
+    Hands alone(false);
+    alone.app.click(on_orange);
+    CHECK(left == labels_of_active(alone));
+  }
+  SUBCASE("all of them: the object is empty") {
+    click_again(hands, on_apple);
+    click_again(hands, on_orange);
+    CHECK(hands.studio().document().active_object()->views.empty());
+    CHECK(hands.selected() == 0);
+  }
+  SUBCASE("not that of a locked object") {
+    hands.studio().apply(LockObject{hands.studio().document().active, true});
+    click_again(hands, on_apple);
+    CHECK(strokes(hands) == 2);
+    CHECK(hands.said().find("locked") != std::string::npos);
+  }
+}
+
+TEST_CASE("marks: a click where the pointer still stands is one more") {
+  Hands hands;
+  hands.app.click(hands.app.screen_of(kOnApple), PointerButton::kRight);
+  REQUIRE(hands.app.settle());
+  CHECK(strokes(hands) == 2);
+}
+
+TEST_CASE("marks: dots stand on the surface in every view, unless something hides them") {
+  Hands hands;
+  const glm::vec2 on_apple = hands.app.screen_of(kOnApple);
+  const glm::vec3 there = hands.under(on_apple);
+  hands.app.click(hands.app.screen_of(kOnOrange));  // which the view turns about
+  REQUIRE(hands.app.settle());
+  turn(hands, 60);
+  const glm::vec2 seen = hands.in_viewport(hands.seen_at(there));
+  CHECK(glm::distance(seen, hands.in_viewport(on_apple)) > 20);
+  const std::vector<StrokeMark>& marks = hands.studio().viewport().marks();
+  REQUIRE(marks.size() == 2);
+  CHECK(!marks.front().from_here);
+  CHECK(glm::distance(marks.front().at_px, seen) < 1.5f);
+  SUBCASE("what is clicked there goes") {
+    click_again(hands, hands.seen_at(there));
+    CHECK(strokes(hands) == 1);
+  }
+  SUBCASE("behind the fruit there is none") {
+    turn(hands, 420);
+    CHECK(hands.studio().viewport().marks().empty());
+  }
+}
+
+TEST_CASE("marks: a cross says what a press does, and no outline beside it") {
+  Hands hands;
+  hands.app.wait_for_message_to_go();
+  const glm::vec2 at = hands.app.screen_of(kOnApple);
+  const auto ink = [&] { return hands.app.picture().at(static_cast<int>(at.x + 9), static_cast<int>(at.y)); };
+  CHECK(!hands.studio().clicks().pointed_mark());  // the pointer has not left
+  go_away(hands);
+  const Rgb8 before = ink();
+  hands.app.move(at + glm::vec2(1, 1));
+  hands.app.frames(2);
+  REQUIRE(hands.studio().clicks().pointed_mark());
+  const Rgb8 ring = ink();
+  CHECK(std::min({ring[0], ring[1], ring[2]}) > 200);
+  CHECK(ring != before);
+  hands.app.key('5');  // another tool
+  CHECK(!hands.studio().clicks().pointed_mark());
+}
