@@ -6,7 +6,7 @@
 #include <chrono>
 
 #include "app/picture/cut_pictures.h"
-#include "app/studio/cut_sentences.h"
+#include "app/picture/cut_sentences.h"
 #include "core/error.h"
 #include "core/stage_clock.h"
 #include "segment/session/doubts.h"
@@ -344,9 +344,12 @@ void CutJobs::finish(const Order& order, CutRun run, const Flags& labels) {
   const double seconds = run.total_ms / 1000;
   running_.reset();
   ++done_;
+  const auto labels_of_item = [&](const ObjectItem& item) {
+    return ws_.labels.labels(ws_.document(), item, ws_.gaussians());
+  };
   const auto labels_now = [&] {
     const ObjectItem* item = ws_.document().find(order.object);
-    return item ? ws_.labels.labels(ws_.document(), *item, ws_.gaussians()) : nullptr;
+    return item ? labels_of_item(*item) : nullptr;
   };
   const Flags shown = labels_now();
   const bool cut_already = shown && !is_stale(*ws_.document().find(order.object), order.key);
@@ -367,7 +370,7 @@ void CutJobs::finish(const Order& order, CutRun run, const Flags& labels) {
   }
   const std::string box =
       *before == *labels_now() ? "" : added_by_box(ws_.history, order.object, ws_.context());
-  const std::string shared = box + shared_with(ws_, order.object);
+  const std::string shared = box + shared_with(ws_.document(), order.object, labels_of_item);
   const std::string hint = ws_.tools.scale_armed() ? wheel_hint(order.request, *result) : "";
   ws_.say(doubt.empty() ? Message::Kind::kDone : Message::Kind::kInfo,
           fmt::format("{}: {}{}{}", name, changed, shared, doubt.empty() ? hint : ". But " + doubt));

@@ -1,8 +1,8 @@
 // What is computed of a cut that is known: its pictures and sentences once more, after its file was opened or
 // a hand has changed it, and the likelihood for the heat map.
 #include "app/picture/cut_pictures.h"
+#include "app/picture/cut_sentences.h"
 #include "app/studio/cut_jobs.h"
-#include "app/studio/cut_sentences.h"
 #include "segment/session/doubts.h"
 
 namespace splatcut {

@@ -2,7 +2,7 @@
 // leave out what it used.
 #include <algorithm>
 
-#include "app/studio/cut_sentences.h"
+#include "app/picture/cut_sentences.h"
 #include "app/ui/widgets.h"
 #include "app/viewport/viewport_pane.h"
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "app/document/selection.h"
-#include "app/studio/cut_sentences.h"
+#include "app/picture/cut_sentences.h"
 #include "hands.h"
 
 using namespace splatcut;

@@ -1,4 +1,4 @@
-#include "app/studio/cut_sentences.h"
+#include "app/picture/cut_sentences.h"
 
 #include <fmt/format.h>
 
@@ -48,13 +48,12 @@ std::string tip_of_card(const ViewCard& card, std::size_t index, bool steady) {
   return tip + card.legend + "\nClick to look from there; correct it with strokes.";
 }
 
-std::string shared_with(const Workspace& workspace, ObjectId id) {
-  const Document& document = workspace.document();
+std::string shared_with(const Document& document, ObjectId id, const LabelsOfObject& labels_of_object) {
   const ObjectItem* object = document.find(id);
-  const Flags own = workspace.labels.labels(document, *object, workspace.gaussians());
+  const Flags own = labels_of_object(*object);
   for (const ObjectItem& other : document.objects) {
     if (other.id == id || other.id == object->within || other.within == id) continue;
-    const Flags labels = workspace.labels.labels(document, other, workspace.gaussians());
+    const Flags labels = labels_of_object(other);
     std::size_t both = 0, kept = 0;
     for (std::size_t g = 0; object->cut && object->of_others && g < own->size(); ++g)
       kept += (*object->cut)[g] & (*object->of_others)[g] & (*labels)[g] & !(*own)[g];
@@ -62,7 +61,7 @@ std::string shared_with(const Workspace& workspace, ObjectId id) {
       return fmt::format(". {} keeps {} that it already had; the menu of {} has a way to take them, too",
                          other.name, gaussians_text(kept), object->name);
     for (std::size_t g = 0; g < own->size(); ++g) both += (*own)[g] & (*labels)[g];
-    if (2 * both > workspace.gaussians_of(other.id) && both > 0)
+    if (2 * both > count_flags(*labels) && both > 0)
       return fmt::format(". {} of {}'s are in it, too", grouped(both), other.name);
   }
   return {};

@@ -2,11 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "app/picture/cut_run.h"
-#include "app/studio/workspace.h"
 
 namespace splatcut {
 
@@ -20,8 +20,10 @@ std::string what_changed(const std::vector<std::uint8_t>& before, const std::vec
 bool add_doubt_of_sides(CutRun* run);
 
 // Names another object most of which the object holds, too; empty: there is none. Objects may overlap, but a
-// click that takes most of another one is rarely meant. id: of an object of the document.
-std::string shared_with(const Workspace& workspace, ObjectId id);
+// click that takes most of another one is rarely meant. id: of an object of the document. labels: of each
+// object, of one length.
+using LabelsOfObject = std::function<Flags(const ObjectItem&)>;
+std::string shared_with(const Document& document, ObjectId id, const LabelsOfObject& labels_of_object);
 
 // What the thumbnail of a view says of it. steady: without numbers that differ between runs.
 std::string tip_of_card(const ViewCard& card, std::size_t index, bool steady);
