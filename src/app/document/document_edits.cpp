@@ -69,6 +69,7 @@ StrokedView& view_for(ObjectItem* object, const Camera& camera, const Flags& see
   return views.back();
 }
 
+// With the views that did not count for it.
 void forget_cut(ObjectItem* object) {
   object->left_out.clear();
   object->cut = nullptr;
@@ -195,9 +196,37 @@ std::string edit(Document* document, const RemoveStroke& command, const EditCont
   if (view->strokes.empty()) object.views.erase(view);
   Stroke* next = first_stroke(&object.views);
   if (first) object.choice = 0;
-  if (first && next) next->size_step = 0;  // it means by itself what it changed before
-  if (!next) forget_cut(&object);
-  return fmt::format("A click taken away: {} follows those that are left", object.name);
+  if (first && next) next->size_step = 0;  // as the first it has other sizes
+  if (next) return fmt::format("A click taken away: {} follows those that are left", object.name);
+  const bool any_rest = !object.views.empty();
+  object.views.clear();
+  forget_cut(&object);
+  return fmt::format("A click taken away{}: nothing marks {} any more",
+                     any_rest ? ", and those on the rest with it" : "", object.name);
+}
+
+void take_back_sharing(const History& history, const RemoveStroke& gone, ObjectItem* object) {
+  const ObjectItem* now = history.now().find(object->id);
+  const Camera& camera = now->views.at(gone.view).camera;
+  const auto holds = [&](const ObjectItem& item) {
+    return std::ranges::any_of(item.views, [&](const StrokedView& view) {
+      return same_camera(view.camera, camera) && std::ranges::any_of(view.strokes, [&](const Stroke& s) {
+               return s.points_px.front() == gone.at_px;
+             });
+    });
+  };
+  const ObjectItem* made = now;
+  for (std::size_t e = history.cursor(); e-- > 0;) {
+    const ObjectItem* before = history.entries()[e].document.find(object->id);
+    if (!before) return;
+    if (holds(*before)) {
+      made = before;
+      continue;
+    }
+    if (before->of_others && !made->of_others && !object->of_others) set_of_others(object, before->of_others);
+    if (before->among && !made->among && !object->among) object->among = before->among;
+    return;
+  }
 }
 
 std::string edit(Document* document, const ClearStrokes&, const EditContext&) {

@@ -241,21 +241,22 @@ const Document* before_last_stroke(const History& history, ObjectId object) {
   struct State {
     const ObjectItem* item = nullptr;  // null: the object was not there
     const ObjectKeys* keys = nullptr;
-    Flags deleted{};
+    const Document* document = nullptr;
   };
   const auto state = [&](std::size_t entry) -> State {
     const History::Entry& e = history.entries()[entry];
     const ObjectItem* item = e.document.find(object);
     if (!item) return {};
-    return {item, e.keys[static_cast<std::size_t>(item - e.document.objects.data())].get(),
-            e.document.deleted};
+    return {item, e.keys[static_cast<std::size_t>(item - e.document.objects.data())].get(), &e.document};
   };
   const State now = state(history.cursor());
   std::size_t at = history.cursor();
   const auto go_back_while_same = [&](std::string ObjectKeys::*key) {
     const auto is_same = [&](const State& s) {
       return s.item && s.keys->*key == now.keys->*key && s.item->hand == now.item->hand &&
-             s.item->of_others == now.item->of_others && s.deleted == now.deleted;
+             s.item->of_others == now.item->of_others && s.document->deleted == now.document->deleted &&
+             s.item->smoothness == now.item->smoothness && s.document->preset == now.document->preset &&
+             s.item->left_out.size() == now.item->left_out.size();
     };
     while (at > 0 && is_same(state(at - 1))) --at;
   };
@@ -270,11 +271,15 @@ const Document* before_last_stroke(const History& history, ObjectId object) {
   if (!is_stroke &&
       (before.keys->last_click != now.keys->last_click || last_step(*before.item) == last_step(*now.item)))
     return nullptr;
-  go_back_while_same(&ObjectKeys::last_click);
+  go_back_while_same(&ObjectKeys::last_click);  // past steps of its size
+  // Opened work holds steps without their cuts: their labels are not known.
+  const auto has_labels = [](const State& s) {
+    return s.item && (s.item->cut || (s.item->hand && stroke_count(*s.item) == 0));
+  };
   const State first = at > 0 ? state(at - 1) : State();
-  if (first.item && (first.item->cut || first.item->hand) && stroke_count(*first.item) < strokes)
-    return &history.entries()[at - 1].document;
-  return at < made ? &history.entries()[at].document : nullptr;
+  if (has_labels(first) && stroke_count(*first.item) < strokes) return first.document;
+  const State own_size = state(at);
+  return at < made && has_labels(own_size) ? own_size.document : nullptr;
 }
 
 void leave_in_history(History* history, const ObjectItem before, const ObjectItem& after,

@@ -82,6 +82,14 @@ void Clicks::perform(const AddStroke& c) {
   edits_.push(c.title(), std::move(after), {}, held.empty() ? message : held);
 }
 
+void Clicks::perform(const RemoveStroke& c) {
+  ws_.require_scene();
+  Document after = ws_.document();
+  const std::string message = edit(&after, c, ws_.context());
+  take_back_sharing(ws_.history, c, after.find(after.active));
+  edits_.push(c.title(), std::move(after), {}, message);
+}
+
 bool Clicks::found_nothing() const {
   const CutRun* run = cuts_.run(ws_.document().active);
   return run && !run->running && run->result && run->result->outcome == Outcome::kNothingFound;
@@ -189,7 +197,9 @@ bool Clicks::asks_ahead() const {
 }
 
 const StrokeMark* Clicks::pointed_mark() const {
-  if (!pointer_inside_ || ws_.view.tool != Tool::kClick || ws_.tools.dragging() || ws_.tools.at_last_click())
+  const ObjectItem* object = ws_.document().active_object();
+  if (!pointer_inside_ || ws_.view.tool != Tool::kClick || ws_.tools.dragging() ||
+      ws_.tools.at_last_click() || !object || object->locked)
     return nullptr;
   return viewport_.mark_at(ws_.tools.pointer_px());
 }

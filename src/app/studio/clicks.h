@@ -51,6 +51,7 @@ class Clicks {
   std::string why_not_step(int steps) const;
 
   void perform(const AddStroke& c);
+  void perform(const RemoveStroke& c);
   void perform(const StepScale& c);
   void perform(const ComeNearer&);
   // Both commands may combine the object with what a stroke alone would cut out: keep of the object what both

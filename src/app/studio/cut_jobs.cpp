@@ -152,8 +152,7 @@ CutJobs::Order CutJobs::order_for(const ObjectItem& object) const {
           object.id,
           cut_key(ws_.document(), object),
           object.colour,
-          ws_.view.heat,
-          labels_before_stroke(object.id)};
+          ws_.view.heat};
 }
 
 // anew: whatever is known of such a cut.
@@ -162,6 +161,7 @@ void CutJobs::start(const ObjectItem& object, bool anew) {
   CutRun run;
   run.running = true;
   Order order = order_for(object);
+  order.before = labels_before_stroke(object.id);
   order.number = ++started_;
   run.key = order.key;
   if (before) {  // shown until there is something newer

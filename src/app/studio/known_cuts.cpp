@@ -14,7 +14,8 @@ void CutJobs::recall() {
   if (!object || !object->cut || object->views.empty() || object->cut_kept || ws_.tasks.busy(TaskKind::kCut))
     return;
   if (known_run(object->id, object->cut_key) || is_stale(*object, ws_.history.keys(*object).cut)) return;
-  const Order order = order_for(*object);
+  Order order = order_for(*object);
+  order.before = labels_before_stroke(object->id);
   const auto know = [this, order](CutRun run, std::vector<ViewCard> cards) {
     if (order.scene != ws_.scene || known_run(order.object, order.key)) return;
     take_cards(&run, order.before, std::move(cards));
@@ -67,8 +68,8 @@ void CutJobs::renew_views() {
   const Flags now = ws_.labels.labels(ws_.document(), *object, ws_.gaussians());
   const bool as_cut = *now == run->result->labels;
   Order order = order_for(*object);
-  if (order.key != run->key) order.before = run->views_before;  // the last stroke was not cut
-  order.key = run->key;
+  if (std::exchange(order.key, run->key) == run->key)  // else the last stroke was not cut
+    order.before = labels_before_stroke(object->id);
   const auto same = [](const Flags& a, const Flags& b) { return a == b || (a && b && *a == *b); };
   if (run->views_drawn && (run->views_labels ? same(run->views_labels, now) : as_cut) &&
       same(run->views_before, order.before)) {

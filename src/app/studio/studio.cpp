@@ -235,7 +235,7 @@ void Studio::perform(const Cancel&) {
   if (clicks_.decline_offer() || stopped || hide_cursor()) return;  // of every Esc: the manual says so
   if (viewport_.floaters_shown()) return viewport_.show_floaters(false);
   if (ws_.view.display != DisplayMode::kWhole) return run(Action::kShowAll);
-  if (ws_.view.tool != Tool::kNavigate && ws_.view.tool != Tool::kClick) run(Action::kToolClick);
+  if (ws_.view.tool != Tool::kClick) run(Action::kToolClick);
 }
 
 void Studio::perform(const Undo&) {

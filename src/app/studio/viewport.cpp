@@ -93,6 +93,7 @@ bool Viewport::update(double seconds, const Flight& flight) {
   const Camera camera = pane_camera();
   const bool differs = requested_camera_ &&
                        !same_camera(resized(*requested_camera_, camera.width_px, camera.height_px), camera);
+  if (moved) ws_.tools.leave_last_click();
   if (flies || travels || moved || (differs && ws_.tools.moves_camera())) last_move_s_ = ws_.clock_s;
   request_styles();
   take_picture();  // first: no picture is shown in the frame that asked for it
@@ -374,8 +375,21 @@ void Viewport::refresh_marks() {
   const auto hit = [this](const Camera& camera, const glm::vec2& pixel, const Flags& visible) {
     return hit_in(camera, pixel, visible);
   };
-  marks_ = stroke_marks_.in(*object, pane_camera(),
-                            {hit, [this](const glm::vec2& at) { return depth_on_screen(at); }});
+  if (std::exchange(marked_within_, draw_limits()) != draw_limits()) stroke_marks_.forget();
+  marks_ = stroke_marks_.in(*object, pane_camera(), {hit, [this](const glm::vec3& at) { return hides(at); }});
+}
+
+bool Viewport::hides(const glm::vec3& point_world) const {
+  constexpr float kBefore = 0.985f;  // of its depth: what is nearer hides it, the noise of depth does not
+  if (!picture_ || picture_->frames.empty() || picture_->scene != ws_.scene->serial) return false;
+  const Frame& frame = *picture_->frames.front();
+  const glm::vec3 there = frame.camera.camera_from_world(point_world);
+  if (!(there.z > 0)) return false;
+  const glm::vec2 at = glm::floor(frame.camera.pixel_from_camera(there));
+  const glm::vec2 size(frame.depth.width(), frame.depth.height());
+  if (!(at.x >= 0 && at.y >= 0 && at.x < size.x && at.y < size.y)) return false;
+  const float depth = frame.depth.at(static_cast<int>(at.x), static_cast<int>(at.y));
+  return depth > 0 && depth < kBefore * there.z;
 }
 
 }  // namespace splatcut

@@ -132,6 +132,7 @@ class Viewport {
   void request_picture();
   void take_picture();
   void refresh_marks();
+  bool hides(const glm::vec3& point_world) const;  // the last picture shows something before it
 
   Workspace& ws_;
   const CutJobs& cuts_;
@@ -141,6 +142,7 @@ class Viewport {
   bool gpu_view_ = false;
   StrokeMarks stroke_marks_;
   std::vector<StrokeMark> marks_;
+  DrawLimits marked_within_;
   int pressed_pane_ = 0;  // pane in which a button was pressed last
 
   Styles styles_;

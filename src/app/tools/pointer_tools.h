@@ -32,7 +32,8 @@ class PointerTools {
   bool scale_armed() const { return state_.scale_armed; }  // true: the wheel steps through parts
   // True: the pointer has not left the place of the last click, whose mark it does not mean.
   bool at_last_click() const { return state_.at_last_click; }
-  void disarm_scale() { state_.scale_armed = false; }  // the click has none: the wheel zooms
+  void leave_last_click() { state_.at_last_click = false; }  // the view moved below the pointer
+  void disarm_scale() { state_.scale_armed = false; }        // the click has none: the wheel zooms
   const glm::vec2& pointer_px() const { return state_.pointer_px; }
   void hold(const Modifiers& modifiers);  // sets the keys that are held now, unless a drag goes on
   ToolOverlay overlay(const ViewState& view, const Camera& camera, float pixels_per_point) const;

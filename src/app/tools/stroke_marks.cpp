@@ -7,9 +7,8 @@ namespace splatcut {
 std::vector<StrokeMark> StrokeMarks::in(const ObjectItem& object, const Camera& now,
                                         const SurfaceOf& surface) {
   constexpr std::size_t kMostKnown = 1024;
-  constexpr float kBefore = 0.96f;  // of its depth: what is nearer hides it, the noise of depth does not
   if (known_.size() > kMostKnown) known_.clear();
-  int asks_left = 4;  // a picture waits for them
+  int asks_left = 8;  // a picture waits for them
   const auto point_of = [&](const StrokedView& view, const glm::vec2& at_px) -> std::optional<glm::vec3> {
     const auto known = std::ranges::find_if(known_, [&](const Known& k) {
       return k.at_px == at_px && same_camera(k.camera, view.camera) && same_set(k.seen, view.seen);
@@ -39,9 +38,8 @@ std::vector<StrokeMark> StrokeMarks::in(const ObjectItem& object, const Camera& 
         if (!point) continue;
         const glm::vec3 there = now.camera_from_world(*point);
         if (!(there.z > 0)) continue;
+        if (surface.hides(*point)) continue;
         mark.at_px = now.pixel_from_camera(there);
-        const auto depth = surface.depth(mark.at_px);
-        if (depth && *depth < kBefore * there.z) continue;
       }
       marks.push_back(mark);
     }

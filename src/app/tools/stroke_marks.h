@@ -22,12 +22,12 @@ struct StrokeMark {
 };
 
 // What the marks ask of the scene. hit: the surface under a pixel of any camera, of the visible Gaussians
-// (null: all). depth: camera z of what the picture shows at a pixel; none: nothing, or unknown.
+// (null: all). hides: whether the last picture shows something before a point.
 struct SurfaceOf {
   std::function<std::optional<PickedPoint>(const Camera& camera, const glm::vec2& pixel,
                                            const Flags& visible)>
       hit;
-  std::function<std::optional<float>(const glm::vec2& pixel)> depth;
+  std::function<bool(const glm::vec3& point_world)> hides;
 };
 
 class StrokeMarks {

@@ -21,7 +21,7 @@ void click_object(ToolHand& hand) {
   const SeedLabel label = state.rest() ? SeedLabel::kRest : SeedLabel::kObject;
   const bool never = state.at_last_click || state.modifiers.alt;
   const auto gone = never ? std::nullopt : hand.context.contradicted(hand.at_px, label);
-  state.at_last_click = true;
+  state.at_last_click = !gone;
   state.scale_at_px = hand.at_px;
   if (gone) {
     state.scale_armed = false;

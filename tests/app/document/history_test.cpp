@@ -105,6 +105,39 @@ TEST_CASE("history: before a stroke stands what was shown, also where a cut was 
   CHECK(before_last_stroke(history, 1) == &history.entries()[3].document);
 }
 
+TEST_CASE("history: no state before a stroke is one of other settings, or of labels that are not known") {
+  History history;
+  const auto cut = [&] { history.set_cut(1, history.keys(*history.now().find(1)).cut, make_flags({1, 0})); };
+  history.push("Click: object", with_click({}, {30, 20}));
+  cut();
+  Document document = history.now();
+  document.find(1)->hand = make_flags({kFollowCut, kHandObject});
+  history.push("Lasso", document);
+  history.push("Click: object", with_click(history.now(), {20, 20}));
+  cut();
+  CHECK(before_last_stroke(history, 1) == &history.entries()[2].document);
+  SUBCASE("by the wheel after the smoothness") {
+    document = history.now();
+    document.find(1)->smoothness = 0.5f;
+    history.push("Smoothness", document);
+    last_stroke(&document.find(1)->views)->size_step = 1;
+    history.push("Larger part", document);
+    cut();
+    CHECK(before_last_stroke(history, 1) != &history.entries()[2].document);
+  }
+  SUBCASE("opened again, without the cuts of steps but with what hands did") {
+    History opened;
+    for (std::size_t e = 1; e < history.entries().size(); ++e) {
+      document = history.entries()[e].document;
+      document.find(1)->cut = nullptr;
+      document.find(1)->cut_key.clear();
+      opened.push("step", document);
+    }
+    opened.set_cut(1, opened.keys(*opened.now().find(1)).cut, make_flags({1, 0}));
+    CHECK(before_last_stroke(opened, 1) == nullptr);
+  }
+}
+
 TEST_CASE("history: rows of the list that are called alike say which object and which stroke") {
   History history;
   Document document = with_click({}, {30, 20});

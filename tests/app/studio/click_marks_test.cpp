@@ -82,12 +82,48 @@ TEST_CASE("marks: a click on the dot of a click takes that away, whichever it is
     CHECK(hands.studio().document().active_object()->views.empty());
     CHECK(hands.selected() == 0);
   }
+  SUBCASE("those on the object: what is left of right ones goes with them") {
+    click_again(hands, on_orange);
+    click_again(hands, on_orange);  // a right click now
+    REQUIRE(strokes(hands) == 2);
+    click_again(hands, on_apple);
+    CHECK(hands.studio().document().active_object()->views.empty());
+    CHECK(hands.selected() == 0);
+    CHECK(hands.said().find("those on the rest with it") != std::string::npos);
+  }
+  SUBCASE("one that changed nothing: nobody is told to click nearer") {
+    const glm::vec2 beside = on_apple + glm::vec2(0, 16);
+    hands.app.click(beside);
+    REQUIRE(labels_of_active(hands) == both);
+    click_again(hands, beside);
+    CHECK(strokes(hands) == 2);
+    CHECK(labels_of_active(hands) == both);
+    CHECK(hands.said().find("nearer") == std::string::npos);
+  }
   SUBCASE("not that of a locked object") {
     hands.studio().apply(LockObject{hands.studio().document().active, true});
     click_again(hands, on_apple);
     CHECK(strokes(hands) == 2);
     CHECK(hands.said().find("locked") != std::string::npos);
   }
+}
+
+TEST_CASE("marks: what a click took from another object is left to that again once it is taken away") {
+  Hands hands;
+  const glm::vec2 on_apple = hands.app.screen_of(kOnApple), on_orange = hands.app.screen_of(kOnOrange);
+  hands.app.key('N', {.ctrl = true});
+  hands.app.click(on_orange);
+  const auto orange = labels_of_active(hands);
+  const auto left = [&] { return hands.studio().document().active_object()->of_others; };
+  REQUIRE(left());
+  hands.app.click(on_apple);
+  REQUIRE(hands.app.settle());
+  REQUIRE(!left());
+  click_again(hands, on_apple);
+  REQUIRE(left());
+  CHECK(labels_of_active(hands) == orange);
+  const auto& document = hands.studio().document();
+  CHECK(*left() == hands.studio().labels(document.objects.front().id));
 }
 
 TEST_CASE("marks: a click where the pointer still stands is one more") {

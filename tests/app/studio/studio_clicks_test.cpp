@@ -171,8 +171,8 @@ TEST_CASE("clicks: hovering outlines what the click then changes, corrections in
       return artist.studio().viewport().style(0).highlight ? *artist.studio().viewport().style(0).highlight
                                                            : Labels{};
     };
-    const glm::vec2 at = artist.beside(artist.labels(), 20);
-    for (const bool rest : {false, true}) {  // adds what is there, and takes it back
+    glm::vec2 at = artist.beside(artist.labels(), 20);
+    for (const bool rest : {false, true}) {  // adds what is there, and takes of it
       CAPTURE(rest);
       const Labels before = artist.labels();
       const Labels outlined = hovered(at);
@@ -190,6 +190,7 @@ TEST_CASE("clicks: hovering outlines what the click then changes, corrections in
       for (std::size_t g = 0; g < before.size(); ++g) beyond[g] = outlined[g] != changed[g];
       const bool border = 100 * count_flags(beyond) < count_flags(before);
       CHECK((border || iou_of(outlined, changed) > 0.6));
+      at = artist.inside(changed);
     }
     artist.app.move({2, 2});
     REQUIRE(artist.app.settle());

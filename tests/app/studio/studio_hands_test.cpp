@@ -156,7 +156,7 @@ TEST_CASE("hands: Esc closes a menu before it changes the tool") {
   CHECK_FALSE(hands.app->interface().dialog_open());
   CHECK(hands.studio().view().tool == Tool::kBrush);
   hands.app.key(key::kEscape);
-  CHECK(hands.studio().view().tool == Tool::kNavigate);
+  CHECK(hands.studio().view().tool == Tool::kClick);
 }
 
 TEST_CASE("hands: two presses are a double-click by their own times, however slow the frames") {
