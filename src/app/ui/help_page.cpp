@@ -45,7 +45,8 @@ void pointer_help(UiContext& ui) {
       ui,
       "Middle drag turns with any tool, with Shift it shifts. Double-click sets the point to turn around "
       "(Navigate). The wheel zooms; right after a click, and with Shift at any time, it steps through larger "
-      "and smaller parts of what was clicked last; while a flight key is held, it changes the speed. While "
+      "and smaller parts of what was clicked last; while a flight key is held, it changes the speed. A right "
+      "click on the dot of a click (left: of a right one) takes that click away. While "
       "other meanings of a click are shown, 1, 2 and 3 choose one, and no tool, until Esc, 4 (box) or a "
       "tool's button. With tools that click, draw or select, Shift adds, Ctrl removes and Alt intersects. "
       "Alt+wheel changes the brush. Tab and Shift+Tab mark buttons and fields, Enter presses what is "
