@@ -250,7 +250,7 @@ TEST_CASE("clicks: the next sizes show as long as the wheel takes them, and for 
     artist.app.frames(1);
     REQUIRE(artist.app.frames_until([&] {
       std::this_thread::sleep_for(std::chrono::milliseconds(20));  // a frame is a sixtieth of a second
-      return !artist.studio().cutting();
+      return artist.studio().cuts().cutting() == 0;
     }));
   };
   turn(-1);
