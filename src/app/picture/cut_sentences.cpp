@@ -37,7 +37,7 @@ bool add_doubt_of_sides(CutRun* run) {
 }
 
 std::string tip_of_card(const ViewCard& card, std::size_t index, bool steady) {
-  std::string tip = index == 0 ? "Your view" : fmt::format("View {}", index);
+  std::string tip = index == 0 ? "First view: where the object was begun" : fmt::format("View {}", index);
   if (card.only_to_look)
     tip = "Around the object";
   else if (!card.used)

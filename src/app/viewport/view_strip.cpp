@@ -49,7 +49,7 @@ void card(UiContext& ui, const ObjectItem& object, const ViewCard& c, std::size_
   constexpr float kLabelWidth = 72;
   if (index == 0 && width > kLabelWidth) {
     list.AddRectFilled({at.x + 4, end.y - 21}, {at.x + 68, end.y - 4}, packed({0, 0, 0, 1}, 0.6f), 3);
-    list.AddText({at.x + 8, end.y - 21}, 0xffffffffu, "your view");
+    list.AddText({at.x + 8, end.y - 21}, 0xffffffffu, "first view");
   } else if (index > 0 && !c.only_to_look && (hovered || left_out)) {
     ImGui::SetCursorScreenPos({end.x - 24, at.y + 3});
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {3, 1});

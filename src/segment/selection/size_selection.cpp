@@ -82,6 +82,16 @@ std::vector<std::uint8_t> ClickSelection::corrected_leaves(const Click& click, c
   const float spot_px = std::max(static_cast<float>(pixels.spot.size()), kLeastSizePx);
   PartSizes sizes =
       part_sizes(parts_, meant, all, changed_px, {.least_px = spot_px, .next = kNextFolds, .far = kFarFolds});
+  const auto leaves_something = [&](std::size_t size) {
+    for (std::uint32_t l = 0; l < parts_.leaves; ++l)
+      if (selected_.object[l] && (!changes(l) || sizes.level[l] > size)) return true;
+    return false;
+  };
+  while (!click.object && sizes.count > sizes.taken + 1 && !leaves_something(sizes.count - 1)) {
+    --sizes.count;
+    for (std::uint32_t& level : sizes.level)
+      if (level == sizes.count) level = kNoLevel;
+  }
   float smallest_px = 0;
   for (std::uint32_t l = 0; l < parts_.leaves; ++l) {
     if (!changes(l)) sizes.level[l] = kNoLevel;

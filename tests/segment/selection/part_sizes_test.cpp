@@ -159,6 +159,12 @@ TEST_CASE("sizes: of a correction, from what it changes up and down, never over 
   CHECK(other.sizes() == 3);
   CHECK(after(object(5), sized(object(25), -1)).labels() == Labels{1, 1, 1, 0});
 
+  // No click holds what a box took, but a size that takes all of it is none.
+  const Stroke around_all = box_around({0, 0}, {40, 10}, SeedLabel::kObject);
+  const ClickSelection largest = after(around_all, sized(rest(35), 9));
+  CHECK(largest.labels() == Labels{1, 1, 0, 0});
+  CHECK(largest.size() + 1 == largest.sizes());
+
   // What is shown as said already has no sizes, nor has a scribble or a box that corrects.
   CHECK(after(object(5), object(6)).sizes() == 0);
   CHECK(after(all, {SeedLabel::kRest, 1, {{32, 5}, {38, 5}}}).sizes() == 0);
