@@ -178,7 +178,8 @@ struct ChooseMeaning {
   std::string title(const Document& document) const;  // says whether a click or a box is meant
   friend std::string edit(Document* document, const ChooseMeaning& command, const EditContext& context);
 };
-struct RemoveStroke {  // takes one click of the active object away; with its only one on the object, all
+// Takes a click of the active object away; where no stroke marks the object then, the others, too.
+struct RemoveStroke {
   std::size_t view = 0, stroke = 0;  // indices into ObjectItem::views and the strokes of that
   glm::vec2 at_px{0};                // its place, by which it is known
   std::string title() const { return "Take a click away"; }

@@ -45,8 +45,9 @@ bool asks_what_is_hit(const Document& document, SeedLabel label, const EditConte
 // What a stroke that marks the active object, or begins one, leaves to others unless it means that.
 Flags left_by_stroke(const Document& document, const EditContext& context);
 
-// Gives the object, of which a click was taken away, what that click had changed beside: what it leaves to
-// others, and among what it is cut. What was changed again since stays as it is.
+// A click can end what its object leaves to others, or the limits that it is cut among
+// (ObjectItem::of_others, among). Where such a click was taken away, gives the object those back that the
+// history knows, unless they were changed again since. object: in a copy of now(), without the click.
 void take_back_sharing(const History& history, const RemoveStroke& gone, ObjectItem* object);
 
 // Gaussians whose labels a stroke changes, where the cut alone gives the active object `before` without it

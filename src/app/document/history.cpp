@@ -262,7 +262,7 @@ const Document* before_last_stroke(const History& history, ObjectId object) {
   };
   const auto last_step = [](const ObjectItem& item) { return last_stroke(item.views)->size_step; };
   if (!now.item || now.keys->last_click.empty()) return nullptr;
-  go_back_while_same(&ObjectKeys::cut);
+  go_back_while_same(&ObjectKeys::cut);  // to the first state with this cut
   if (at == 0) return nullptr;
   const std::size_t made = at;
   const State before = state(made - 1);
@@ -271,7 +271,8 @@ const Document* before_last_stroke(const History& history, ObjectId object) {
   if (!is_stroke &&
       (before.keys->last_click != now.keys->last_click || last_step(*before.item) == last_step(*now.item)))
     return nullptr;
-  go_back_while_same(&ObjectKeys::last_click);  // past steps of its size
+  // To the first state with this stroke: between lie steps of its size.
+  go_back_while_same(&ObjectKeys::last_click);
   // Opened work holds steps without their cuts: their labels are not known.
   const auto has_labels = [](const State& s) {
     return s.item && (s.item->cut || (s.item->hand && stroke_count(*s.item) == 0));

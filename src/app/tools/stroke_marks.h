@@ -35,7 +35,7 @@ class StrokeMarks {
   // Clicks of the object that the camera shows. One that was made from elsewhere shows unless something
   // stands before it; of those whose surface is not known yet, a few are asked for in a call.
   std::vector<StrokeMark> in(const ObjectItem& object, const Camera& now, const SurfaceOf& surface);
-  void forget();  // the scene is another
+  void forget();  // forgets the surfaces: the scene, or what is drawn of it, is another
 
  private:
   struct Known {

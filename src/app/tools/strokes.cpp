@@ -19,8 +19,8 @@ Icon arrow_with_rays() {
 void click_object(ToolHand& hand) {
   ToolState& state = hand.state;
   const SeedLabel label = state.rest() ? SeedLabel::kRest : SeedLabel::kObject;
-  const bool never = state.at_last_click || state.modifiers.alt;
-  const auto gone = never ? std::nullopt : hand.context.contradicted(hand.at_px, label);
+  const bool adds = state.at_last_click || state.modifiers.alt;
+  const auto gone = adds ? std::nullopt : hand.context.contradicted(hand.at_px, label);
   state.at_last_click = !gone;
   state.scale_at_px = hand.at_px;
   if (gone) {

@@ -67,8 +67,8 @@ struct ToolState {
   SetOperation volume_set = SetOperation::kAdd;  // operation that `volume` was made with
   std::optional<std::size_t> handle;             // handle that is dragged
   bool scale_armed = false;                      // true: the wheel steps through parts ...
-  glm::vec2 scale_at_px{0};                      // ... as long as it stays near here, the last click's place
-  bool at_last_click = false;                    // true: it has not left that place
+  glm::vec2 scale_at_px{0};                      // ... while the pointer stays near this place of a click
+  bool at_last_click = false;                    // true: the pointer has not left that place since
 
   bool right() const { return button == PointerButton::kRight; }
   bool rest() const { return right() || modifiers.ctrl; }
