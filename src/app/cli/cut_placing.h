@@ -6,7 +6,7 @@
 
 #include "app/cli/cutout_files.h"
 #include "app/console/camera_options.h"
-#include "app/document/export_placement.h"
+#include "app/placing/export_placement.h"
 
 namespace splatcut {
 

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "app/cli/cut_run.h"
-#include "app/document/export_placement.h"
+#include "app/placing/export_placement.h"
 #include "core/error.h"
 #include "core/json_file.h"
 #include "core/spoken_list.h"

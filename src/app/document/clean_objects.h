@@ -1,8 +1,9 @@
-// Cache of a scene's objects with clean edges. The window and its exports share it, so that an export writes
-// what the window shows.
+// Cache of a scene's objects with clean edges, and of what the scene is without one. The window and its
+// exports share it, so that an export writes what the window shows.
 //
 // Thread-safe; two threads that ask for the same object at the same time both compute it. Memory: labels and
-// Gaussians of the last few objects, and labels of those that are cleaned anyway. Each array of labels is
+// Gaussians of the last few objects, labels of those that are cleaned anyway, and what the last two objects
+// change by leaving. Each array of labels is
 // compared with the kept ones once, from then on by its address: asking in every frame costs nothing.
 #pragma once
 
@@ -14,10 +15,32 @@
 
 #include "app/document/document.h"
 #include "app/document/opened_scene.h"
+#include "app/document/view_state.h"
 #include "segment/finish/clean.h"
 #include "segment/finish/fill.h"
 
 namespace splatcut {
+
+// Which object leaves the scene, and how.
+struct Leaving {
+  Flags labels;   // of the object
+  Flags deleted;  // Gaussians that are no part of the scene any more; null: none
+  glm::vec3 up_world{0};
+  bool clean_edges = false, fill_hole = false;
+  bool operator==(const Leaving&) const = default;
+};
+
+// As the view shows it, and as it is exported.
+inline Leaving leaving_of(const Document& document, const Flags& labels, const ViewState& view) {
+  return {labels, document.deleted, document.up_world, view.clean_edges, view.fill_hole};
+}
+
+// What a scene loses and gets with an object that leaves it.
+struct SceneWithout {
+  CleanReport edges;    // of the object; as made where its edges are not cleaned
+  RestChanges changes;  // by clean edges
+  SurfacePatch patch;   // what fills the hole, if that is asked for
+};
 
 class CleanObjects {
  public:
@@ -38,16 +61,14 @@ class CleanObjects {
 
   static constexpr std::size_t kMostDecisions = 32;
 
-  // Computes the object with what the rest of the scene loses and gets back without it; nothing is kept.
-  CleanObject with_rest(const Flags& labels, const glm::vec3& up_world, const Job& job) const;
-
-  // The hole that the object leaves in the rest so changed; nothing is kept.
-  SurfacePatch hole_of(const Flags& labels, const RestChanges& changes, const glm::vec3& up_world,
-                       const Job& job) const;
+  // The same of the scene without an object.
+  std::shared_ptr<const SceneWithout> known_without(const Leaving& leaving) const;
+  std::shared_ptr<const SceneWithout> made_without(const Leaving& leaving, const Job& job);
 
  private:
   Flags first(const Flags& labels) const;  // of equal arrays the one that stands for all; under mutex_
   bool anyway(const Flags& first) const;   // under mutex_
+  SurfacePatch hole_of(const Leaving& leaving, const RestChanges& changes, const Job& job) const;
   CleanObject computed(const Flags& labels, const glm::vec3& up_world, bool rest, bool anyway,
                        const Job& job) const;
 
@@ -58,10 +79,17 @@ class CleanObjects {
     std::shared_ptr<const CleanObject> object;
   };
 
+  struct KeptWithout {
+    Leaving leaving;  // its labels: first()
+    bool anyway;
+    std::shared_ptr<const SceneWithout> without;
+  };
+
   std::shared_ptr<const OpenedScene> scene_;
   mutable std::mutex mutex_;
-  std::deque<Kept> kept_;      // cached objects, the newest last
-  std::vector<Flags> anyway_;  // first() of labels that are cleaned anyway, the newest last
+  std::deque<Kept> kept_;                 // cached objects, the newest last
+  std::deque<KeptWithout> kept_without_;  // the same
+  std::vector<Flags> anyway_;             // first() of labels that are cleaned anyway, the newest last
   using Known = std::weak_ptr<Flags::element_type>;
   mutable std::deque<std::pair<Known, Known>> asked_;  // arrays asked for last, and first() of each
 };

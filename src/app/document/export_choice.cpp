@@ -19,10 +19,6 @@ bool can_be_written(const std::filesystem::path& folder) {
          ::faccessat(AT_FDCWD, folder.c_str(), W_OK | X_OK, AT_EACCESS) == 0;
 }
 
-bool fills_hole(const ExportChoice& choice) {
-  return choice.fill_hole && choice.what == ExportWhat::kRest;
-}
-
 bool changes_edges(const EdgesKnown& edges) {
   return edges.clean && edges.unknown + edges.cleaned > 0;
 }
@@ -92,9 +88,10 @@ std::size_t left_to_write(const ExportChoice& choice, std::size_t gaussians, con
 }
 
 std::string amount_text(const ExportChoice& choice, std::size_t gaussians, const EdgesKnown& edges,
-                        const FormatPlan& plan) {
+                        const HoleKnown& hole, const FormatPlan& plan) {
   const bool rest = choice.what == ExportWhat::kRest;
-  const bool about = fills_hole(choice) || (rest && changes_edges(edges)),
+  const bool fills = hole.fill && hole.why_not().empty();
+  const bool about = rest && (fills || changes_edges(edges)),
              at_most = !rest && edges.clean && edges.unknown > 0;
   return fmt::format("{}{} Gaussians, {}{}",
                      about     ? "About "
@@ -111,17 +108,22 @@ std::string edges_stay_text(const EdgesKnown& edges) {
                      edges.why_kept);
 }
 
-std::string changes_text(const ExportChoice& choice, const EdgesKnown& edges) {
+std::string changes_text(const ExportChoice& choice, const EdgesKnown& edges, const HoleKnown& hole) {
   const std::string of_edges = edges_change_text(choice, edges);
-  if (!fills_hole(choice)) return of_edges;
-  return of_edges + (of_edges.empty() ? "" : " ") +
-         "If the object touches a flat surface, that is continued into the hole: what lies there and at the "
-         "rim is replaced, and what fills it is invented.";
+  if (choice.what != ExportWhat::kRest || !hole.fill || !hole.why_not().empty()) return of_edges;
+  const std::string of_hole =
+      hole.without
+          ? fmt::format("The hole is filled by {}, all invented; what lies there and at the rim is replaced.",
+                        gaussians_text(hole.without->patch.changes.given_back.size()))
+          : "If the object touches a flat surface, that is continued into the hole: what lies there and "
+            "at the rim is replaced, and what fills it is invented.";
+  return of_edges + (of_edges.empty() ? "" : " ") + of_hole;
 }
 
-std::string loss_text(const ExportChoice& choice, const EdgesKnown& edges, const FormatPlan& plan) {
+std::string loss_text(const ExportChoice& choice, const EdgesKnown& edges, const HoleKnown& hole,
+                      const FormatPlan& plan) {
   if (!plan.lost.empty()) return "Lost: " + plan.lost;
-  return changes_text(choice, edges).empty() ? "Nothing is lost." : "";
+  return changes_text(choice, edges, hole).empty() ? "Nothing is lost." : "";
 }
 
 bool names_written_format(std::string_view path) {

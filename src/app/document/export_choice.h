@@ -20,7 +20,7 @@ struct ExportChoice {
   bool overwrite = false;
   bool name_first = false;    // the dialog opens: what is typed first is the name
   std::string marked_folder;  // "…/", before the name that is marked; empty: none is, or it was typed over
-  bool fill_hole = false;     // of the rest
+  bool path_typed = false;    // or chosen in another dialog
   ExportPlacement placement;  // kept for the next export of the scene
   std::uint32_t placed_file = 0;  // the scene's first, that it is for
   FormatPlan plan;
@@ -57,19 +57,28 @@ struct EdgesKnown {
   void count(const std::optional<CleanReport>& report, const std::string& name);
 };
 
+// What is known, before an export of the rest, of the hole that the object leaves.
+struct HoleKnown {
+  bool fill = false;                              // it is to be filled
+  std::shared_ptr<const SceneWithout> without{};  // null: not known yet
+  // Why it stays; empty: it is filled, or that is not known.
+  std::string why_not() const { return fill && without ? without->patch.why_not : ""; }
+};
+
 // Number of Gaussians of so many that edges leave to write: exact where all is known.
 std::size_t left_to_write(const ExportChoice& choice, std::size_t gaussians, const EdgesKnown& edges);
 
 // What the dialog says. How much is written of so many Gaussians: what clean edges change is not known before
 // they are made, nor what fills a hole.
 std::string amount_text(const ExportChoice& choice, std::size_t gaussians, const EdgesKnown& edges,
-                        const FormatPlan& plan);
+                        const HoleKnown& hole, const FormatPlan& plan);
 // Whose edges stay, though clean ones are asked for; empty: nobody's.
 std::string edges_stay_text(const EdgesKnown& edges);
 // What clean edges and the hole change in what is written; empty: nothing.
-std::string changes_text(const ExportChoice& choice, const EdgesKnown& edges);
+std::string changes_text(const ExportChoice& choice, const EdgesKnown& edges, const HoleKnown& hole);
 // What is lost by the format, or that nothing is lost at all; empty where only changes_text() has to say.
-std::string loss_text(const ExportChoice& choice, const EdgesKnown& edges, const FormatPlan& plan);
+std::string loss_text(const ExportChoice& choice, const EdgesKnown& edges, const HoleKnown& hole,
+                      const FormatPlan& plan);
 
 // Whether the path ends like a format that is written.
 bool names_written_format(std::string_view path);

@@ -18,7 +18,7 @@ namespace {
 struct Exporting {
   const Scene& scene;
   const ExportRequest& request;
-  const glm::vec3& up_world;
+  const Document& document;
   CleanObjects* clean;  // null: rows stay as they are
   const Job& job;
 };
@@ -27,7 +27,7 @@ struct Exporting {
 std::shared_ptr<const CleanObject> clean_edges_of(const Flags& labels, const std::string& name,
                                                   const Exporting& what, ExportReport* report) {
   if (!what.request.clean_edges) return nullptr;
-  auto object = what.clean->made(labels, what.up_world, what.job);
+  auto object = what.clean->made(labels, what.document.up_world, what.job);
   if (!object) return nullptr;
   count_edges(object->report, report, name);
   return object->report.cleaned ? object : nullptr;
@@ -46,25 +46,24 @@ void save(const std::filesystem::path& path, const std::vector<std::uint8_t>& ke
   const bool is_rest = request.what == ExportWhat::kRest;
   const std::shared_ptr<const CleanObject> clean =
       object && !is_rest ? clean_edges_of(object, name, what, report) : nullptr;
-  RestChanges changes;
-  if (object && is_rest && request.clean_edges) {
-    CleanObject without = what.clean->with_rest(object, what.up_world, what.job);
-    count_edges(without.report, report);
-    changes = std::move(without.rest);
-  }
-  RestChanges filled;
-  if (object && is_rest && request.fill_hole) {
-    SurfacePatch patch = what.clean->hole_of(object, changes, what.up_world, what.job);
-    report->hole_kept = patch.why_not;
-    report->invented += patch.changes.given_back.size();
-    filled = std::move(patch.changes);
+  RestChanges changes, filled;
+  if (object && is_rest && (request.clean_edges || request.fill_hole)) {
+    const auto without = what.clean->made_without(
+        {object, what.document.deleted, what.document.up_world, request.clean_edges, request.fill_hole},
+        what.job);
+    if (!without) return;
+    if (request.clean_edges) count_edges(without->edges, report);
+    report->hole_kept = without->patch.why_not;
+    report->invented += without->patch.changes.given_back.size();
+    changes = without->changes;
+    filled = without->patch.changes;
   }
   report->not_given_back += spare_copy(what.scene, request.format, to.has_value(), filled, &changes);
   add(filled, &changes);
   if (what.job.cancelled()) return;
   std::optional<MovedTo> moved;
   if (to) moved = {*to, request.placement.origin == ExportOrigin::kScene};
-  const SaveOptions options{.up = what.up_world};
+  const SaveOptions options{.up = what.document.up_world};
   const SaveReport saved =
       clean ? save_gaussians(path, what.scene, keep, &clean->cloud, request.format, moved, options)
             : save_rest(path, what.scene, keep, changes, request.format, moved, options);
@@ -218,7 +217,7 @@ ExportReport run_export(const Scene& scene, const Document& document, ObjectId o
     if (request.placement == ExportPlacement{}) return {};
     return similarity_of(request.placement, scene.cloud, kept, document.up_world, request.format.axes);
   };
-  const Exporting what{scene, request, document.up_world, clean, job};
+  const Exporting what{scene, request, document, clean, job};
   ExportReport report;
   if (request.what == ExportWhat::kAllObjects) {
     std::filesystem::create_directories(request.path);

@@ -12,7 +12,7 @@
 
 #include "app/document/clean_objects.h"
 #include "app/document/document.h"
-#include "app/document/export_placement.h"
+#include "app/placing/export_placement.h"
 #include "scene/formats/scene_file.h"
 
 namespace splatcut {

@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "app/document/export_placement.h"
-#include "app/document/placing_handles.h"
+#include "app/placing/export_placement.h"
+#include "app/placing/placing_handles.h"
 #include "scene/camera/camera.h"
 #include "scene/formats/scene_file.h"
 

@@ -6,7 +6,7 @@
 namespace splatcut {
 
 SeenQuestion question_of(const ViewState& view, const Flags& labels, const glm::vec3& up_world) {
-  const bool hides = view.display == DisplayMode::kHide;
+  const bool hides = view.display == DisplayMode::kHide && !view.fill_hole;
   return {shows_seen_heat(view) ? SeenWhat::kHeat
           : hides               ? SeenWhat::kGround
                                 : SeenWhat::kNothing,

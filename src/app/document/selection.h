@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-#include "app/document/volume.h"
+#include "app/placing/volume.h"
 #include "core/image.h"
 #include "core/job.h"
 #include "scene/camera/camera.h"

@@ -27,6 +27,12 @@ ViewState turned_seen_heat(ViewState view) {
   return view;
 }
 
+ViewState turned_fill_hole(ViewState view) {
+  view.fill_hole = !shows_filled_hole(view);
+  if (view.fill_hole) show(DisplayMode::kHide, &view);
+  return view;
+}
+
 const char* label_of(const ViewState& view, const ShownObject& object) {
   if (shows_seen_heat(view))
     return object.heat      ? "Seen by views: red none, blue many  (Shift+M: back)"
@@ -37,8 +43,10 @@ const char* label_of(const ViewState& view, const ShownObject& object) {
            : object.forced ? "Only the object, edges cleaned anyway  (I: back)"
                            : "Only the object, edges cleaned  (I: back)";
   if (view.display == DisplayMode::kHide)
-    return object.outlined ? "Without it; outlined: ground no view saw  (H: back)"
-                           : "Without the object  (H: back)";
+    return object.filled && object.outlined ? "Without it; outlined: filled, invented  (H: back)"
+           : object.filled                  ? "Without the object, its hole filled  (H: back)"
+           : object.outlined                ? "Without it; outlined: ground no view saw  (H: back)"
+                                            : "Without the object  (H: back)";
   return view.heat ? "Likelihood: blue rest, red object  (M: back)" : nullptr;
 }
 

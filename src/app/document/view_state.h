@@ -29,9 +29,11 @@ struct ViewState {
   float depth_limit = 0;                        // reach behind the surface over the scene's size; 0: no limit
   DisplayMode display = DisplayMode::kWhole;
   bool clean_edges = true;  // an object shown alone, or exported, has clean edges
-  bool tint = true;         // objects are tinted
-  bool outline = true;      // objects have outlines
-  bool heat = false;        // the heat map of the likelihood replaces the tint
+  bool fill_hole =
+      false;            // what the object hid is continued where it is not shown, and in exports of the rest
+  bool tint = true;     // objects are tinted
+  bool outline = true;  // objects have outlines
+  bool heat = false;    // the heat map of the likelihood replaces the tint
   // Set: the object, shown alone, is coloured by how many views saw it; what was shown before, to go back to.
   std::optional<DisplayMode> seen_heat;
   float near_share = 0.01f;  // distance of the near plane over the scene's size; see natural_near_plane()
@@ -68,12 +70,15 @@ ViewState turned_over(ViewState view, DisplayMode mode);
 ViewState turned_side_by_side(ViewState view);
 // The object alone by how many views saw it, or back.
 ViewState turned_seen_heat(ViewState view);
+// Without the object, the hole that it leaves filled; where that is shown, not filled.
+ViewState turned_fill_hole(ViewState view);
 
 // What is known of the object that a pane shows.
 struct ShownObject {
   bool clean = false, forced = false;  // drawn with clean edges; which the guard had refused
   bool heat = false, looking = false;  // by how many views it was seen is known; is being looked for
-  bool outlined = false;               // the ground that no view showed has an outline
+  bool filled = false;                 // the hole that it leaves is filled
+  bool outlined = false;               // that hole has an outline, or the ground that no view showed
 };
 // The label of a pane that shows something else than the scene as it is; null: it needs none.
 const char* label_of(const ViewState& view, const ShownObject& object);
@@ -82,6 +87,11 @@ const char* label_of(const ViewState& view, const ShownObject& object);
 inline bool shows_clean_edges(const ViewState& view) {
   const bool alone = view.display == DisplayMode::kIsolate || view.display == DisplayMode::kSideBySide;
   return view.display == DisplayMode::kBeforeAfter || (alone && view.clean_edges);
+}
+
+// True if the pane shows the scene without the object, the hole that this leaves filled.
+inline bool shows_filled_hole(const ViewState& view) {
+  return view.display == DisplayMode::kHide && view.fill_hole;
 }
 
 // True if the pane shows by how many views the object was seen.

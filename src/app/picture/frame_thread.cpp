@@ -69,12 +69,12 @@ std::shared_ptr<const Frame> stand_in_frame(const GaussianCloud& cloud,
   Flags own_shown;
   if (shown) {
     std::vector<std::uint8_t> set;
-    for (const std::uint32_t g : stands_for) set.push_back((*shown)[g]);
+    for (const std::uint32_t g : stands_for) set.push_back(g == kNoGaussian || (*shown)[g]);
     own_shown = make_flags(std::move(set));
   }
   auto frame = frame_of(cloud, camera, own_shown, limits, job);
   for (std::int32_t& hit : frame->first_hit.pixels())
-    if (hit >= 0) hit = static_cast<std::int32_t>(stands_for[static_cast<std::size_t>(hit)]);
+    if (hit >= 0) hit = static_cast<std::int32_t>(stands_for[static_cast<std::size_t>(hit)]);  // none: -1
   return frame;
 }
 

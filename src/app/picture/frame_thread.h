@@ -39,7 +39,7 @@ struct PaneRequest {
   Camera camera;
   Flags shown;  // flags of the Gaussians to draw; null: all
   FrameStyle style;
-  std::shared_ptr<const CleanObject> clean;  // object to draw in place of the scene's rows; null: the rows
+  std::shared_ptr<const CleanObject> clean;  // to draw in place of the scene's rows; null: the rows
 };
 
 struct FrameRequest {

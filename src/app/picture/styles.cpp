@@ -4,8 +4,10 @@
 #include <cmath>
 #include <numeric>
 
+#include "app/document/export_plan.h"
 #include "app/document/selection.h"
 #include "scene/cloud/joined_clouds.h"
+#include "segment/finish/shown_part.h"
 
 namespace splatcut {
 
@@ -37,20 +39,23 @@ Flags with_cut(const Document& document, ObjectItem object, const Flags& cut) {
   return make_flags(labels_of(document, object, cut->size()));
 }
 
+bool mostly_same(const Flags& was, const Flags& now) {
+  if (!was || was->size() != now->size()) return false;
+  std::size_t both = 0;
+  for (std::size_t g = 0; g < now->size(); ++g) both += (*was)[g] && (*now)[g];
+  return 2 * both >= std::max(count_flags(*was), count_flags(*now));
+}
+
 // What was cleaned before the labels changed, while it is cleaned anew: of what is still labelled the edges
 // stay clean, and what is new comes as it is. Null where that is not mostly the same object.
 std::shared_ptr<const CleanObject> carried_over(const std::shared_ptr<const CleanObject>& clean,
                                                 const Flags& was, const Flags& now,
                                                 const GaussianCloud& scene) {
-  if (!clean || !was || was->size() != now->size()) return nullptr;
+  if (!clean || !mostly_same(was, now)) return nullptr;
   if (was == now || *was == *now) return clean;
-  std::size_t both = 0;
   std::vector<std::uint32_t> stays, added, row, order;
-  for (std::uint32_t g = 0; g < now->size(); ++g) {
-    both += (*was)[g] && (*now)[g];
+  for (std::uint32_t g = 0; g < now->size(); ++g)
     if ((*now)[g] && !(*was)[g]) added.push_back(g);
-  }
-  if (2 * both < std::max(count_flags(*was), count_flags(*now))) return nullptr;
   for (std::uint32_t i = 0; i < clean->gaussian.size(); ++i)
     if ((*now)[clean->gaussian[i]]) {
       stays.push_back(i);
@@ -63,6 +68,21 @@ std::shared_ptr<const CleanObject> carried_over(const std::shared_ptr<const Clea
   CleanObject out;
   out.cloud = permuted(joined({permuted(clean->cloud, stays), permuted(scene, added)}), order);
   for (const std::uint32_t i : order) out.gaussian.push_back(row[i]);
+  return std::make_shared<const CleanObject>(std::move(out));
+}
+
+// The scene as it is written without the object: those shown, but for what leaves with it, and what is added.
+std::shared_ptr<const CleanObject> rest_to_draw(const GaussianCloud& scene,
+                                                const std::vector<std::uint8_t>& shown,
+                                                const SceneWithout& without) {
+  RestChanges changes = without.changes;
+  add(without.patch.changes, &changes);
+  std::vector<std::uint8_t> stays = shown;
+  for (const std::uint32_t g : changes.ghosts) stays[g] = 0;
+  CleanObject out;
+  out.gaussian = labelled_rows(stays);
+  out.gaussian.resize(out.gaussian.size() + changes.given_back.size(), kNoGaussian);
+  out.cloud = rest_of(scene, shown, changes);
   return std::make_shared<const CleanObject>(std::move(out));
 }
 
@@ -130,11 +150,20 @@ Styles styled(const StyleOrder& order, const Styles& before, LabelCache* labels)
     out.style[1] = plain;
     out.style[1].heat = nullptr;
   }
+  if (shows_filled_hole(order.view) && n <= kMostToCopy) {
+    out.without = order.clean->known_without(leaving_of(document, active, order.view));
+    if (!out.without && mostly_same(before.active_labels, active)) out.without = before.without;
+    const bool same = out.without == before.without && out.shown[0] == before.shown[0] &&
+                      before.display == DisplayMode::kHide;
+    if (out.without && out.without->patch.why_not.empty())
+      out.clean[0] = same ? before.clean[0] : rest_to_draw(*order.cloud, *out.shown[0], *out.without);
+  }
   if (!shows_clean_edges(order.view)) return out;
   const std::size_t pane = two ? 1 : 0;
   auto clean = order.clean->known(active, document.up_world);
   if (clean && !clean->report.cleaned) return out;
-  if (!clean) clean = carried_over(before.clean[pane], before.active_labels, active, *order.cloud);
+  if (!clean && !before.without)
+    clean = carried_over(before.clean[pane], before.active_labels, active, *order.cloud);
   if (clean) {
     out.clean[pane] = clean;
     out.shown[pane] = kept_if_equal(before.shown[pane], shown_of(*clean, n));

@@ -39,9 +39,11 @@ struct Styles {
   DisplayMode display = DisplayMode::kWhole;
   std::array<Flags, 2> shown;  // flags per pane of the Gaussians to draw; null: all
   std::array<FrameStyle, 2> style;
-  // Object per pane that is drawn in place of the scene's rows; null: the rows. Until an object is cleaned
-  // anew after its labels changed it is as before where they are the same, and not `cleaned` in its report.
+  // Gaussians per pane that are drawn in place of the scene's rows; null: the rows. Alone, an object with
+  // clean edges: until it is cleaned anew after its labels changed it is as before where they are the same,
+  // and not `cleaned` in its report. Without the object, the scene with its hole filled.
   std::array<std::shared_ptr<const CleanObject>, 2> clean;
+  std::shared_ptr<const SceneWithout> without;  // what that hole is filled by; null: none is shown filled
   Flags active_labels;       // labels of the active object, all 0 without one; null: they are not made yet
   std::size_t floaters = 0;  // number of Gaussians in floaters
 };

@@ -1,5 +1,9 @@
 #include "app/studio/clean_edges.h"
 
+#include <fmt/format.h>
+
+#include "app/document/export_plan.h"
+#include "app/document/words.h"
 #include "core/error.h"
 
 namespace splatcut {
@@ -9,15 +13,32 @@ void CleanEdges::update() {
   if (!ws_.scene || !viewport_.style_current() || cuts_.cutting() != 0) return;
   const Flags& labels = viewport_.active_labels();
   if (std::exchange(seen_, labels) != labels || !ws_.tasks.idle()) seen_since_s_ = ws_.clock_s;
-  const bool alone = shows_clean_edges(ws_.view), calm = ws_.clock_s - seen_since_s_ > kCalmSeconds;
-  const bool wanted = alone || (calm && ws_.view.clean_edges && ws_.options.works_ahead);
-  if (!wanted || !labels || !ws_.tasks.idle() || settled_ == now()) return;
-  settled_ = now();
-  if (count_flags(*labels) > 0 && !ws_.clean->known(labels, ws_.document().up_world)) start();
+  const bool ahead = ws_.clock_s - seen_since_s_ > kCalmSeconds && ws_.options.works_ahead;
+  for (const bool fills : {shows_filled_hole(ws_.view), !shows_filled_hole(ws_.view)}) {
+    const bool wanted = fills ? ws_.view.fill_hole : ws_.view.clean_edges;
+    if (shows(fills) || (ahead && wanted)) ask(fills);
+  }
 }
 
-CleanEdges::Asked CleanEdges::now() const {
-  return {seen_, ws_.document().up_world, ws_.clean->is_cleaned_anyway(seen_)};
+bool CleanEdges::shows(bool fills) const {
+  return fills ? shows_filled_hole(ws_.view) : shows_clean_edges(ws_.view);
+}
+
+CleanEdges::Asked CleanEdges::asked(bool fills) const {
+  return {fills, leaving_of(ws_.document(), seen_, ws_.view), ws_.clean->is_cleaned_anyway(seen_)};
+}
+
+bool CleanEdges::known(const Asked& asked) const {
+  return asked.fills ? ws_.clean->known_without(asked.leaving) != nullptr
+                     : ws_.clean->known(asked.leaving.labels, asked.leaving.up_world) != nullptr;
+}
+
+void CleanEdges::ask(bool fills) {
+  if (!seen_ || !ws_.tasks.idle()) return;
+  const Asked now = asked(fills);
+  if (settled(fills) == now) return;
+  settled(fills) = now;
+  if (count_flags(*seen_) > 0 && !known(now)) start(now);
 }
 
 void CleanEdges::perform(const CleanAnyway&) {
@@ -31,28 +52,50 @@ void CleanEdges::perform(const CleanAnyway&) {
   ws_.view.clean_edges = true;
 }
 
-void CleanEdges::start() {
-  settled_ = {};
-  const Asked asked = now();
-  const TaskThread::Order order(TaskKind::kClean, [this, asked] { settled_ = asked; });
+void CleanEdges::start(const Asked& asked) {
+  settled(asked.fills) = {};
+  const TaskThread::Order order(TaskKind::kClean, [this, asked] { settled(asked.fills) = asked; });
   ws_.tasks.submit(order, [this, asked, clean = ws_.clean](const Job& job) {
-    const auto object = clean->made(asked.labels, asked.up_world, job);
-    if (!object) return;
-    ws_.tasks.post([this, asked, clean, object] {
-      if (clean != ws_.clean || clean->known(asked.labels, ws_.document().up_world) != object) return;
-      settled_ = asked;
+    const Leaving& of = asked.leaving;
+    if (asked.fills)
+      clean->made_without(of, job);
+    else
+      clean->made(of.labels, of.up_world, job);
+    if (job.cancelled()) return;
+    ws_.tasks.post([this, asked, clean] {
+      if (clean != ws_.clean || !known(asked)) return;
+      settled(asked.fills) = asked;
       ++ws_.view_serial;
-      if (!object->report.cleaned && shows_clean_edges(ws_.view))
+      if (const auto object = clean->known(asked.leaving.labels, asked.leaving.up_world);
+          object && !asked.fills && !object->report.cleaned && shows(false))
         ws_.say(Message::Kind::kInfo, "Edges stay as they are: " + object->report.reason);
     });
   });
 }
 
 bool CleanEdges::cancel() {
-  if (!shows_clean_edges(ws_.view) || !ws_.tasks.busy(TaskKind::kClean)) return false;
+  const bool fills = shows_filled_hole(ws_.view);
+  if (!shows(fills) || !ws_.tasks.busy(TaskKind::kClean)) return false;
   ws_.tasks.cancel(TaskKind::kClean);
-  settled_ = now();
+  settled(fills) = asked(fills);
   return true;
+}
+
+std::shared_ptr<const SceneWithout> CleanEdges::without() const {
+  const ObjectItem* object = ws_.document().active_object();
+  if (!ws_.scene || !object) return nullptr;
+  const Flags& labels = ws_.labels.labels(ws_.document(), *object, ws_.gaussians());
+  return ws_.clean->known_without(leaving_of(ws_.document(), labels, ws_.view));
+}
+
+std::string CleanEdges::hole_text() const {
+  if (!shows_filled_hole(ws_.view)) return {};
+  if (ws_.gaussians() > kMostToCopy)
+    return "This scene is too large to show it filled; exports of the rest fill it.";
+  const auto& without = viewport_.styles().without;
+  if (!without) return ws_.tasks.busy(TaskKind::kClean) ? "Filling the hole...  (Esc: stop)" : "Not filled.";
+  if (!without->patch.why_not.empty()) return "Not filled: " + without->patch.why_not + ".";
+  return fmt::format("Filled by {}, all invented.", gaussians_text(without->patch.changes.given_back.size()));
 }
 
 }  // namespace splatcut

@@ -1,13 +1,17 @@
-// Computes the active object with clean edges on the worker: at once if the object is shown alone, else while
-// the worker has nothing else to do, so that the object is there when the user asks for it.
+// Computes on the worker the active object with clean edges, and the scene without it where its hole is to be
+// filled: at once if that is shown, else while the worker has nothing else to do, so that it is there when
+// the user asks for it.
 //
 // A new cut, a scene that opens and a change of labels stop the computation; it starts anew by itself, as it
-// does where up changes, or the user asks to clean anyway.
+// does where up or what is deleted changes, or the user asks to clean anyway.
 #pragma once
 
+#include <array>
+#include <string>
+
 #include "app/document/document.h"
-#include "app/studio/viewport.h"
-#include "app/studio/workspace.h"
+#include "app/workspace/viewport.h"
+#include "app/workspace/workspace.h"
 
 namespace splatcut {
 
@@ -21,23 +25,31 @@ class CleanEdges {
   // Stops the computation that a view waits for, and gives it up as it was asked for. Returns false if no
   // view waits.
   bool cancel();
+  // What a view that is to show the hole filled says of it; empty: no view is.
+  std::string hole_text() const;
+  // The scene without the active object, as it would be exported now; null: not known.
+  std::shared_ptr<const SceneWithout> without() const;
 
  private:
   struct Asked {
-    Flags labels;
-    glm::vec3 up_world{0};
+    bool fills = false;  // the scene without the object; else the object alone
+    Leaving leaving;
     bool anyway = false;
     bool operator==(const Asked&) const = default;
   };
-  Asked now() const;  // what seen_ asks for
-  void start();
+  Asked asked(bool fills) const;  // of seen_
+  bool known(const Asked& asked) const;
+  bool shows(bool fills) const;  // the view does
+  void ask(bool fills);          // computes it, if it is not known and was not given up
+  void start(const Asked& asked);
+  Asked& settled(bool fills) { return settled_[fills ? 1 : 0]; }
 
   Workspace& ws_;
   const Viewport& viewport_;
   const CutJobs& cuts_;
-  Asked settled_;            // what is computed, or was given up
-  Flags seen_;               // labels at the last update()
-  double seen_since_s_ = 0;  // clock time since which labels and worker are quiet
+  std::array<Asked, 2> settled_;  // what is computed, or was given up
+  Flags seen_;                    // labels at the last update()
+  double seen_since_s_ = 0;       // clock time since which labels and worker are quiet
 };
 
 }  // namespace splatcut

@@ -246,7 +246,8 @@ void Clicks::refresh_hover() {
     stroke.camera = known_camera(*object, stroke.camera);
     if (!ask->rest && reaches_beyond(*object, {&ask->on, 1})) request.among = nullptr;
   }
-  if (!shows_clean_edges(ws_.view)) ws_.tasks.cancel(TaskKind::kClean);  // nobody waits for it
+  if (!shows_clean_edges(ws_.view) && !shows_filled_hole(ws_.view))
+    ws_.tasks.cancel(TaskKind::kClean);  // nobody waits for it
   ws_.tasks.cancel(TaskKind::kAhead);
   ws_.tasks.submit(
       TaskKind::kHover,

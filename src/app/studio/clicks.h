@@ -5,10 +5,10 @@
 #include <optional>
 #include <string>
 
-#include "app/studio/cut_jobs.h"
 #include "app/studio/edits.h"
-#include "app/studio/viewport.h"
-#include "app/studio/workspace.h"
+#include "app/workspace/cut_jobs.h"
+#include "app/workspace/viewport.h"
+#include "app/workspace/workspace.h"
 
 namespace splatcut {
 

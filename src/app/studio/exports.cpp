@@ -30,9 +30,10 @@ void Exports::perform(const Export& c) {
         job.progress("exporting", 0);
         const ExportReport report = run_export(*scene->scene, document, object, request, clean.get(), job);
         if (job.cancelled()) return;
-        ws_.tasks.post([this, text = text_of(report, request.path), path = request.path, scene] {
+        ws_.tasks.post([this, report, path = request.path, scene] {
           written(path, *scene);
-          ws_.say(Message::Kind::kDone, text);
+          ws_.say(report.hole_kept.empty() ? Message::Kind::kDone : Message::Kind::kRefused,
+                  text_of(report, path));
         });
       });
 }

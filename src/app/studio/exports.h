@@ -5,8 +5,8 @@
 #include <filesystem>
 
 #include "app/document/command.h"
-#include "app/studio/viewport.h"
-#include "app/studio/workspace.h"
+#include "app/workspace/viewport.h"
+#include "app/workspace/workspace.h"
 
 namespace splatcut {
 

@@ -4,8 +4,8 @@
 
 #include <optional>
 
-#include "app/studio/viewport.h"
-#include "app/studio/workspace.h"
+#include "app/workspace/viewport.h"
+#include "app/workspace/workspace.h"
 
 namespace splatcut {
 

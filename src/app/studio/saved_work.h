@@ -9,11 +9,11 @@
 #include <string>
 
 #include "app/document/command.h"
-#include "app/studio/viewport.h"
-#include "app/studio/workspace.h"
 #include "app/work/autosaves.h"
 #include "app/work/left_work.h"
 #include "app/work/work_file.h"
+#include "app/workspace/viewport.h"
+#include "app/workspace/workspace.h"
 
 namespace splatcut {
 

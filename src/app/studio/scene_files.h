@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "app/document/command.h"
-#include "app/studio/cut_jobs.h"
 #include "app/studio/saved_work.h"
-#include "app/studio/viewport.h"
-#include "app/studio/workspace.h"
+#include "app/workspace/cut_jobs.h"
+#include "app/workspace/viewport.h"
+#include "app/workspace/workspace.h"
 
 namespace splatcut {
 

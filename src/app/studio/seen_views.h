@@ -6,8 +6,8 @@
 // the view is shown anew.
 #pragma once
 
-#include "app/studio/viewport.h"
-#include "app/studio/workspace.h"
+#include "app/workspace/viewport.h"
+#include "app/workspace/workspace.h"
 
 namespace splatcut {
 

@@ -16,15 +16,15 @@
 
 #include "app/studio/clean_edges.h"
 #include "app/studio/clicks.h"
-#include "app/studio/cut_jobs.h"
 #include "app/studio/edits.h"
 #include "app/studio/exports.h"
 #include "app/studio/free_sides.h"
 #include "app/studio/scene_files.h"
 #include "app/studio/seen_views.h"
-#include "app/studio/viewport.h"
-#include "app/studio/workspace.h"
 #include "app/tools/actions.h"
+#include "app/workspace/cut_jobs.h"
+#include "app/workspace/viewport.h"
+#include "app/workspace/workspace.h"
 
 namespace splatcut {
 
@@ -84,6 +84,7 @@ class Studio {
   std::vector<std::uint8_t> labels(ObjectId object) const;  // final labels; empty: there is no such object
   std::size_t gaussians_of(ObjectId object) const { return ws_.gaussians_of(object); }
   const SeenViews& seen_views() const { return seen_views_; }
+  const CleanEdges& finish() const { return clean_edges_; }
   std::optional<CleanReport> clean_edges(ObjectId object) const;  // none: not known yet
   std::optional<CleanReport> clean_edges() const;                 // of the active object
 

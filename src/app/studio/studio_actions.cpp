@@ -159,6 +159,8 @@ const Studio::ActionRow* Studio::row_of(Action action) {
       {Action::kHeat, without_cutout, [](S& s) { s.turn_over(&ViewState::heat); }},
       {Action::kSeenHeat, without_gaussians, [](S& s) { s.apply(SetView{turned_seen_heat(s.view())}); },
        kWaits},
+      {Action::kFillHole, without_gaussians, [](S& s) { s.apply(SetView{turned_fill_hole(s.view())}); },
+       kWaits},
       {Action::kCentres, without_scene, [](S& s) { s.turn_over(&ViewState::centres); }},
       {Action::kRings, without_scene, [](S& s) { s.turn_over(&ViewState::rings); }},
       {Action::kGrid, without_scene, [](S& s) { s.turn_over(&ViewState::grid); }},

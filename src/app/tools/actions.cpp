@@ -71,6 +71,7 @@ constexpr std::array kOwnBindings = {
     Binding{Action::kIsolate, 'I', kPlain, "Display", "Isolate the object"},
     Binding{Action::kHide, 'H', kPlain, "Display", "Hide the object"},
     Binding{Action::kShowAll, 'H', kShift, "Display", "Show everything"},
+    Binding{Action::kFillHole, 'H', kCtrl, "Display", "Hide it, fill its hole"},
     Binding{Action::kSideBySide, 'B', kPlain, "Display",
             "Side by side; of the object alone: as it is, and clean"},
     Binding{Action::kCleanEdges, 'I', kShift, "Display", "Clean edges of the object alone, and in exports"},

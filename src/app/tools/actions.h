@@ -72,6 +72,7 @@ enum class Action {
   kOutline,
   kHeat,
   kSeenHeat,
+  kFillHole,
   kBackdrop,
   kCentres,
   kRings,

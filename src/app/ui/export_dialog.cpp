@@ -44,18 +44,37 @@ EdgesKnown edges_known(const Studio& studio, ExportWhat what) {
   return known;
 }
 
+HoleKnown hole_known(const Studio& studio, ExportWhat what) {
+  if (what != ExportWhat::kRest || !studio.view().fill_hole) return {};
+  return {true, studio.finish().without()};
+}
+
 void propose_path(UiContext& ui) {
   ExportChoice& choice = ui.state.exporting;
   choice.path = proposed_path(choice, ui.studio.scene()->scene->path, ui.studio.document().active_object(),
                               ui.studio.exports().last());
+  choice.path_typed = false;
+}
+
+// A path that was typed or chosen stays, but for an ending that a folder does not have.
+void choose_what(UiContext& ui, ExportWhat what) {
+  ExportChoice& choice = ui.state.exporting;
+  choice.what = what;
+  if (!choice.path_typed) return propose_path(ui);
+  if (what == ExportWhat::kAllObjects && choice.path.ends_with(choice.format.extension))
+    choice.path.resize(choice.path.size() - std::string_view(choice.format.extension).size());
 }
 
 // What pressing Export asks for.
 ExportRequest request_of(const UiContext& ui) {
   const ExportChoice& choice = ui.state.exporting;
-  return {choice.what,      choice.format,    target_of(choice),
-          choice.overwrite, choice.placement, ui.studio.view().clean_edges,
-          choice.fill_hole};
+  return {choice.what,
+          choice.format,
+          target_of(choice),
+          choice.overwrite,
+          choice.placement,
+          ui.studio.view().clean_edges,
+          ui.studio.view().fill_hole};
 }
 
 // Why the last try failed is told of what was tried alone.
@@ -118,10 +137,8 @@ void export_choices(UiContext& ui) {
     ImGui::SameLine(i == 0 ? 90.0f : 0.0f, i == 0 ? -1.0f : 2.0f);
     const auto what = static_cast<ExportWhat>(i);
     if (button(ui, kWhatNames[i], kWhatNames[i], what == ExportWhat::kScene ? "" : no_object,
-               choice.what == what)) {
-      choice.what = what;
-      propose_path(ui);
-    }
+               choice.what == what))
+      choose_what(ui, what);
   }
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted("Format");
@@ -139,8 +156,10 @@ void export_choices(UiContext& ui) {
   ImGui::SetNextItemWidth(-44);
   if (choice.name_first && !ImGui::IsWindowAppearing() && ImGui::GetActiveID() != ImGui::GetID("##path"))
     ImGui::SetKeyboardFocusHere();
-  if (ImGui::InputText("##path", &choice.path, ImGuiInputTextFlags_CallbackAlways, mark_name, &choice))
+  if (ImGui::InputText("##path", &choice.path, ImGuiInputTextFlags_CallbackAlways, mark_name, &choice)) {
+    choice.path_typed = true;
     follow_typed_name(choice);
+  }
   ImGui::SameLine(0, 4);
   if (button(ui, icon::kFolder, "Choose a folder and name")) {
     ui.state.export_open = false;
@@ -257,7 +276,7 @@ void export_dialog(UiContext& ui) {
       choice.for_want_of_object = true;
     }
     if (ui.state.exporting.path.empty()) propose_path(ui);
-    remember_clean_edges(ui);
+    remember_finish(ui);
   }
   constexpr float kWidth = 640, kHeight = 478, kPreview = 330;
   const bool previews = ImGui::GetIO().DisplaySize.x >= kWidth + kPreview;
@@ -272,23 +291,25 @@ void export_dialog(UiContext& ui) {
   placement_choices(ui);
   ExportChoice& choice = ui.state.exporting;
   if (choice.what == ExportWhat::kRest) {
-    ImGui::Checkbox("Fill the hole", &choice.fill_hole);
-    tooltip("Continues a flat surface where the object stood, by copies of it. What is copied is invented");
+    fill_hole_choice(ui);
     ImGui::SameLine();
   }
   clean_edges_choice(ui, choice.what == ExportWhat::kScene ? "The whole scene is written as it is" : "");
   const std::size_t gaussians = gaussians_to_export(ui.studio, choice.what);
   const EdgesKnown edges = edges_known(ui.studio, choice.what);
+  const HoleKnown hole = hole_known(ui.studio, choice.what);
   const FormatPlan& plan = export_plan(ui, left_to_write(choice, gaussians, edges));
   const Palette& p = ui.theme.colour;
   line_across(p);
-  fact(icon::kInfo, p.accent, amount_text(choice, gaussians, edges, plan));
+  fact(icon::kInfo, p.accent, amount_text(choice, gaussians, edges, hole, plan));
   fact(icon::kCheck, p.good, "Kept: " + plan.kept);
   if (choice.placement != ExportPlacement{})
     fact(icon::kInfo, p.accent, "Moved: positions, sizes, rotations and spherical harmonics follow.");
-  for (const std::string& text : {edges_stay_text(edges), changes_text(choice, edges)})
+  for (const std::string& text : {edges_stay_text(edges), changes_text(choice, edges, hole)})
     if (!text.empty()) fact(icon::kInfo, p.accent, text);
-  if (const std::string lost = loss_text(choice, edges, plan); !lost.empty())
+  if (const std::string why = hole.why_not(); !why.empty())
+    fact(icon::kWarning, p.warn, "The hole stays: " + why + ".");
+  if (const std::string lost = loss_text(choice, edges, hole, plan); !lost.empty())
     fact(plan.lost.empty() ? icon::kCheck : icon::kWarning, plan.lost.empty() ? p.good : p.warn, lost);
   const ExportRequest request = request_of(ui);
   forget_trouble_of_another_try(choice, request);
@@ -316,7 +337,7 @@ void export_dialog(UiContext& ui) {
   const bool done = pressed || (reason.empty() && !typing && enter_pressed());
   if (done) ui.ask(Export{request});
   if (done || cancelled) {
-    leave_clean_edges(ui, done);
+    leave_finish(ui, done);
     ui.state.export_open = false;
     choice.trouble.clear();
     ImGui::CloseCurrentPopup();

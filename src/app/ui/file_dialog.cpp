@@ -38,6 +38,7 @@ void use(UiContext& ui, const std::filesystem::path& path) {
       return;
     case FilePurpose::kExport:
       ui.state.exporting.path = path.string();
+      ui.state.exporting.path_typed = true;
       ui.state.export_open = true;
   }
 }

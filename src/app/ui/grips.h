@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "app/document/placing_handles.h"
+#include "app/placing/placing_handles.h"
 
 namespace splatcut {
 

@@ -88,11 +88,9 @@ void help_page(UiContext& ui) {
   if (columns < 4) pointer_help(ui);
   if (columns > 2) ImGui::NextColumn();
   key_group(ui, "Display");
-  if (columns == 4) {
-    pointer_help(ui);
-    ImGui::NextColumn();
-  }
+  if (columns == 4) ImGui::NextColumn();
   key_group(ui, "Camera");
+  if (columns == 4) pointer_help(ui);
   ImGui::Columns(1);
   ImGui::EndChild();
   const bool closed =

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "app/document/export_placement.h"
+#include "app/placing/export_placement.h"
 #include "app/ui/ui_context.h"
 
 namespace splatcut {

@@ -139,7 +139,7 @@ void turntable_dialog(UiContext& ui) {
   if (ui.state.turntable_open && !ImGui::IsPopupOpen(id)) {
     if (!ui.studio.scene()) return;
     propose(ui);
-    remember_clean_edges(ui);
+    remember_finish(ui);
   }
   if (!begin_dialog(id, ui.state.turntable_open, {560, 346})) return;
   const bool typing = typing_beside("##folder");
@@ -175,7 +175,7 @@ void turntable_dialog(UiContext& ui) {
   if (done)
     ui.ask(SaveTurntable{choice.path, choice.frames, choice.width_px, choice.height_px, choice.as,
                          choice.turn_s, ui.studio.view().clean_edges});
-  if (done || cancelled) leave_clean_edges(ui, done);
+  if (done || cancelled) leave_finish(ui, done);
   if (done || cancelled || browse) {
     ui.state.turntable_open = false;
     ImGui::CloseCurrentPopup();

@@ -146,7 +146,7 @@ struct UiState {
   std::optional<std::filesystem::path> replace_asked;  // a file of that name is there
   ExportChoice exporting;
   ExportPreview export_preview;
-  std::optional<bool> clean_edges_before;  // the view's switch before the dialog that is open
+  std::optional<ViewState> view_before;  // with its switches before the dialog that is open
   bool turntable_open = false;
   TurntableChoice turntable;
   PropertyChoice property;

@@ -173,16 +173,26 @@ void clean_edges_choice(UiContext& ui, const std::string& reason) {
   clean_anyway_button(ui);
 }
 
-void remember_clean_edges(UiContext& ui) {
-  if (!ui.state.clean_edges_before) ui.state.clean_edges_before = ui.studio.view().clean_edges;
+void fill_hole_choice(UiContext& ui) {
+  ViewState view = ui.studio.view();
+  if (ImGui::Checkbox("Fill the hole", &view.fill_hole)) ui.ask(SetView{view});
+  tooltip(
+      fmt::format("Continues a flat surface where the object stood, by copies of it. What is copied is "
+                  "invented. {} shows it",
+                  keys_of(Action::kFillHole)));
 }
 
-void leave_clean_edges(UiContext& ui, bool kept) {
+void remember_finish(UiContext& ui) {
+  if (!ui.state.view_before) ui.state.view_before = ui.studio.view();
+}
+
+void leave_finish(UiContext& ui, bool kept) {
   ViewState view = ui.studio.view();
-  const bool before = std::exchange(ui.state.clean_edges_before, {}).value_or(view.clean_edges);
-  if (kept || view.clean_edges == before) return;
-  view.clean_edges = before;
-  ui.ask(SetView{view});
+  const ViewState before = std::exchange(ui.state.view_before, {}).value_or(view);
+  if (kept) return;
+  view.clean_edges = before.clean_edges;
+  view.fill_hole = before.fill_hole;
+  if (view != ui.studio.view()) ui.ask(SetView{view});
 }
 
 std::optional<std::string> why_edges_stay(const UiContext& ui) {

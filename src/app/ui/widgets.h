@@ -11,9 +11,11 @@ namespace splatcut {
 
 // The view's switch, for what is written of an object; greyed with `reason` unless that is empty.
 void clean_edges_choice(UiContext& ui, const std::string& reason = {});
-// A dialog with that switch opens, unless it comes back; and ends. Not kept, the switch is as it was before.
-void remember_clean_edges(UiContext& ui);
-void leave_clean_edges(UiContext& ui, bool kept);
+// The same for the hole that the object leaves in what is written of the rest.
+void fill_hole_choice(UiContext& ui);
+// A dialog with such switches opens, unless it comes back; and ends. Not kept, they are as they were before.
+void remember_finish(UiContext& ui);
+void leave_finish(UiContext& ui, bool kept);
 // Why the active object's edges are not cleaned, although that is wanted and can be had anyway; none: they
 // are.
 std::optional<std::string> why_edges_stay(const UiContext& ui);

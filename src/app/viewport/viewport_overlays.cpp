@@ -145,8 +145,8 @@ void draw_ground_grid(const UiContext& ui, const UiRect& area, int pane) {
   }
 }
 
-void draw_unseen_ground(const UiContext& ui, const UiRect& area,
-                        const std::vector<std::pair<glm::vec3, glm::vec3>>& outline_world) {
+void draw_ground_outline(const UiContext& ui, const UiRect& area,
+                         const std::vector<std::pair<glm::vec3, glm::vec3>>& outline_world) {
   constexpr ImU32 kInk = IM_COL32(255, 120, 90, 255), kShade = IM_COL32(0, 0, 0, 110);
   const Camera camera = ui.studio.viewport().pane_camera();
   const float near_plane = ui.studio.viewport().draw_limits().near_plane;

@@ -68,10 +68,19 @@ void coming_label(const UiContext& ui, const UiRect& pane, const std::string& te
   pane_label(ui, vec(at), text.c_str());
 }
 
-// Around ground that no view ever showed; null: none is known, or the object is shown.
-const std::vector<std::pair<glm::vec3, glm::vec3>>* unseen_outline(const Studio& studio) {
-  const bool hides = studio.view().display == DisplayMode::kHide;
-  const UnseenGround* ground = hides ? studio.seen_views().ground() : nullptr;
+using OutlineWorld = std::vector<std::pair<glm::vec3, glm::vec3>>;
+
+bool shows_hole_filled(const Studio& studio) {
+  return studio.viewport().styles().without && studio.viewport().clean(0);
+}
+
+// Without the object, around the hole that is filled, as long as outlines show, or around ground that no view
+// ever showed; null: there is none, or it is not known.
+const OutlineWorld* ground_outline(const Studio& studio) {
+  if (studio.view().display != DisplayMode::kHide) return nullptr;
+  if (shows_hole_filled(studio))
+    return studio.view().outline ? &studio.viewport().styles().without->patch.outline_world : nullptr;
+  const UnseenGround* ground = studio.view().fill_hole ? nullptr : studio.seen_views().ground();
   return ground && !ground->outline_world.empty() ? &ground->outline_world : nullptr;
 }
 
@@ -81,7 +90,8 @@ const char* mode_label(const Studio& studio) {
                                   .forced = clean && clean->report.forced,
                                   .heat = studio.viewport().style(0).heat != nullptr,
                                   .looking = studio.seen_views().looking(),
-                                  .outlined = unseen_outline(studio) != nullptr});
+                                  .filled = shows_hole_filled(studio),
+                                  .outlined = ground_outline(studio) != nullptr});
 }
 
 // The bar with the meanings as buttons.
@@ -151,7 +161,18 @@ UiRect line_before_button(const UiContext& ui, const ImVec2& at, float right, co
   return UiRect{{at.x, at.y}, {end.x, end.y}};
 }
 
-// Where a click from afar found nothing, or an object shown alone is not as clean as it is wanted.
+// Without the object: its hole can be filled, or is.
+UiRect hole_line(UiContext& ui, const ImVec2& at, float right) {
+  const bool fills = ui.studio.view().fill_hole;
+  const std::string text = fills ? ui.studio.finish().hole_text() : "It may leave a hole.";
+  const char* label = fills ? "Leave the hole" : "Fill the hole";
+  const UiRect line = line_before_button(ui, at, right, text.c_str(), label);
+  action_button(ui, Action::kFillHole, label);
+  return line;
+}
+
+// Where a click from afar found nothing, an object shown alone is not as clean as it is wanted, or the object
+// is not shown.
 std::optional<UiRect> advice_line(UiContext& ui, const ImVec2& at, float right) {
   if (ui.studio.clicks().found_nothing()) {
     const UiRect line =
@@ -159,7 +180,9 @@ std::optional<UiRect> advice_line(UiContext& ui, const ImVec2& at, float right) 
     come_nearer_button(ui);
     return line;
   }
-  if (ui.studio.clicks().offer() || !shows_clean_edges(ui.studio.view())) return {};
+  if (ui.studio.clicks().offer()) return {};
+  if (ui.studio.view().display == DisplayMode::kHide) return hole_line(ui, at, right);
+  if (!shows_clean_edges(ui.studio.view())) return {};
   const std::optional<std::string> why = why_edges_stay(ui);
   if (!why) return {};
   const UiRect line = line_before_button(ui, at, right, why->c_str(), "Clean anyway");
@@ -237,7 +260,7 @@ std::vector<UiRect> viewport_pane(UiContext& ui, const UiRect& area, float botto
     if (!gpu_picture[i] && !picture) coming_label(ui, of_pane, studio.coming());
     ImGui::PushClipRect(from, to, true);
     draw_ground_grid(ui, of_pane, i);
-    if (const auto* outline = unseen_outline(studio)) draw_unseen_ground(ui, of_pane, *outline);
+    if (const OutlineWorld* outline = ground_outline(studio)) draw_ground_outline(ui, of_pane, *outline);
     draw_rings(ui, of_pane, i);
     if (i == 0) draw_placed_file(ui, of_pane);
     draw_centres(ui, of_pane, i);

@@ -25,8 +25,8 @@ void draw_points(const UiContext& ui, const UiRect& area);  // of the ground, of
 void draw_centres(const UiContext& ui, const UiRect& area, int pane);
 void draw_rings(const UiContext& ui, const UiRect& area, int pane);
 void draw_ground_grid(const UiContext& ui, const UiRect& area, int pane);
-void draw_unseen_ground(const UiContext& ui, const UiRect& area,
-                        const std::vector<std::pair<glm::vec3, glm::vec3>>& outline_world);
+void draw_ground_outline(const UiContext& ui, const UiRect& area,
+                         const std::vector<std::pair<glm::vec3, glm::vec3>>& outline_world);
 // The file that is chosen in the files panel: where it would stand, and handles that move it.
 void draw_placed_file(UiContext& ui, const UiRect& area);
 void draw_key_cursor(const UiContext& ui, const UiRect& area);   // that the arrows move

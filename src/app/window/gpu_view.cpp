@@ -50,6 +50,10 @@ void GpuView::refresh(Pane* pane, const std::shared_ptr<const GaussianCloud>& cl
   std::vector<SplatStyle> styles(cloud->size());
   for (std::size_t i = 0; i < styles.size(); ++i) {
     const std::size_t g = clean ? clean->gaussian[i] : i;
+    if (g == kNoGaussian) {
+      styles[i] = {0, 0, 0, 255};
+      continue;
+    }
     styles[i] = style_of(style, g);
     if (shown && !(*shown)[g]) styles[i][3] = 0;
   }

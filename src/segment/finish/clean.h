@@ -63,6 +63,9 @@ inline constexpr const char* kCleanAnywayCosts =
     "It goes by the sides that agree best. Skirts and halos leave; where the selection lacks a piece, more "
     "around that piece is cut off";
 
+// Index that no Gaussian of a scene has.
+inline constexpr std::uint32_t kNoGaussian = 0xffffffff;
+
 struct CleanObject {
   GaussianCloud cloud;                  // the object's Gaussians, those that left not among them
   std::vector<std::uint32_t> gaussian;  // per Gaussian of `cloud`, its index in the scene, ascending

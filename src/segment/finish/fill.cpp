@@ -102,6 +102,7 @@ void fill_hole(const Mask& hole, const GaussianCloud& cloud, const SurfaceMap& m
     return;
   }
   patch->area = static_cast<double>(count(hole)) * map.cell_area();
+  for (const OutlineSide& side : outline_of(hole, map)) patch->outline_world.push_back(side.ends_world);
   for (const std::vector<std::uint32_t>* some : {&ground.layer, &ground.rubbish})
     for (const std::uint32_t g : *some)
       if (is_set(hole, *map.cell(cloud.position[g]))) patch->changes.ghosts.push_back(g);

@@ -28,6 +28,7 @@
 #include <glm/glm.hpp>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/job.h"
@@ -41,7 +42,8 @@ struct SurfacePatch {
   std::string why_not;  // a sentence without a full stop; empty: there is a patch
   RestChanges changes;  // ghosts: what is replaced; given_back: the copies
   int pieces = 0;
-  double area = 0;       // of the hole, scene units squared
+  double area = 0;                                             // of the hole, scene units squared
+  std::vector<std::pair<glm::vec3, glm::vec3>> outline_world;  // pieces around the hole
   double rim_error = 0;  // of the colours along the rim before they were fitted, root mean square
 };
 

@@ -1,6 +1,7 @@
 #include "segment/finish/surface_map.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
@@ -204,6 +205,19 @@ Mask flooded(const Mask& from, const Mask& over) {
       }
   }
   return flood;
+}
+
+std::vector<OutlineSide> outline_of(const Mask& mask, const SurfaceMap& map) {
+  constexpr std::array<glm::ivec2, 4> kCorners = {{{0, 0}, {1, 0}, {1, 1}, {0, 1}}},
+                                      kBeside = {{{0, -1}, {1, 0}, {0, 1}, {-1, 0}}};
+  std::vector<OutlineSide> sides;
+  for (const glm::ivec2& c : cells_of(mask))
+    for (std::size_t side = 0; side < 4; ++side)
+      if (!is_set(mask, c + kBeside[side]))
+        sides.push_back({c + kBeside[side],
+                         {map.on_plane(glm::vec2(c + kCorners[side])),
+                          map.on_plane(glm::vec2(c + kCorners[(side + 1) % 4]))}});
+  return sides;
 }
 
 std::optional<SurfaceBelow> surface_below(const Drawer& scene, std::span<const std::uint8_t> labels,

@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/image.h"
@@ -58,6 +59,13 @@ Mask mask_of(const Keep& keep) {
 
 // The cells of `from`, and those of `over` that hang together with them.
 Mask flooded(const Mask& from, const Mask& over);
+
+// A side of a cell of a mask where the cell beside it is none of the mask's.
+struct OutlineSide {
+  glm::ivec2 beside;                           // that cell
+  std::pair<glm::vec3, glm::vec3> ends_world;  // on the plane
+};
+std::vector<OutlineSide> outline_of(const Mask& mask, const SurfaceMap& map);
 
 // A view from which the object and the surface around it are seen.
 struct SurfaceView {

@@ -70,20 +70,12 @@ UnseenGround unseen_ground(const Drawer& scene, std::span<const std::uint8_t> la
   const Mask unseen = flooded(below, hidden),
              by_ground =
                  dilated(mask_of([&](const glm::ivec2&c) { return shows(c, Shown::kGround); }), kSpeckCells);
-  int sides = 0, at_ground = 0;
-  for (const glm::ivec2& c : cells_of(unseen)) {
-    ground.area += map.cell_area();
-    const glm::ivec2 corners[] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}},
-                     beside[] = {{0, -1}, {1, 0}, {0, 1}, {-1, 0}};
-    for (int side = 0; side < 4; ++side) {
-      if (is_set(unseen, c + beside[side])) continue;
-      ++sides;
-      at_ground += is_set(by_ground, c + beside[side]);
-      ground.outline_world.emplace_back(map.on_plane(glm::vec2(c + corners[side])),
-                                        map.on_plane(glm::vec2(c + corners[(side + 1) % 4])));
-    }
-  }
-  if (2 * at_ground < sides) return {.why_not = "what it stands on is not flat around it"};
+  const std::vector<OutlineSide> outline = outline_of(unseen, map);
+  const auto at_ground =
+      std::ranges::count_if(outline, [&](const OutlineSide& side) { return is_set(by_ground, side.beside); });
+  for (const OutlineSide& side : outline) ground.outline_world.push_back(side.ends_world);
+  ground.area = static_cast<double>(count(unseen)) * map.cell_area();
+  if (2 * at_ground < std::ssize(outline)) return {.why_not = "what it stands on is not flat around it"};
   return ground;
 }
 

@@ -255,45 +255,58 @@ TEST_CASE("exports: the dialog promises a number, and that nothing is lost, only
   ExportChoice choice;
   const FormatPlan plan{.bytes = 4'300'000, .kept = "all", .lost = {}};
   EdgesKnown rows;
-  CHECK(amount_text(choice, 17466, rows, plan) == "17,466 Gaussians, 4.3 MB");
-  CHECK(loss_text(choice, rows, plan) == "Nothing is lost.");
+  CHECK(amount_text(choice, 17466, rows, {}, plan) == "17,466 Gaussians, 4.3 MB");
+  CHECK(loss_text(choice, rows, {}, plan) == "Nothing is lost.");
   EdgesKnown not_yet{.clean = true};
   not_yet.count({}, "Apple");
-  CHECK(amount_text(choice, 17466, not_yet, plan) == "At most 17,466 Gaussians, 4.3 MB");
-  CHECK(changes_text(choice, not_yet) == "Clean edges leave out what the scene hides.");
-  CHECK(loss_text(choice, not_yet, plan).empty());
+  CHECK(amount_text(choice, 17466, not_yet, {}, plan) == "At most 17,466 Gaussians, 4.3 MB");
+  CHECK(changes_text(choice, not_yet, {}) == "Clean edges leave out what the scene hides.");
+  CHECK(loss_text(choice, not_yet, {}, plan).empty());
   EdgesKnown cleaned{.clean = true}, stays{.clean = true};
   cleaned.count(CleanReport{.cleaned = true, .left = 214}, "Apple");
   stays.count(CleanReport{.reason = "3 Gaussians have no edges"}, "Mug");
-  CHECK(amount_text(choice, 46423, cleaned, plan) == "46,209 Gaussians, 4.3 MB");
-  CHECK(changes_text(choice, cleaned) == "Clean edges leave out 214 Gaussians that the scene hides.");
+  CHECK(amount_text(choice, 46423, cleaned, {}, plan) == "46,209 Gaussians, 4.3 MB");
+  CHECK(changes_text(choice, cleaned, {}) == "Clean edges leave out 214 Gaussians that the scene hides.");
   CHECK(edges_stay_text(cleaned).empty());
-  CHECK(amount_text(choice, 46423, stays, plan) == "46,423 Gaussians, 4.3 MB");
+  CHECK(amount_text(choice, 46423, stays, {}, plan) == "46,423 Gaussians, 4.3 MB");
   CHECK(edges_stay_text(stays) == "Edges of Mug stay: 3 Gaussians have no edges.");
-  CHECK(loss_text(choice, stays, plan) == "Nothing is lost.");
+  CHECK(loss_text(choice, stays, {}, plan) == "Nothing is lost.");
   choice.what = ExportWhat::kAllObjects;
   EdgesKnown all = cleaned;
   all.count(CleanReport{.reason = "3 Gaussians have no edges"}, "Mug");
   CHECK(edges_stay_text(all) == "Edges of Mug stay: 3 Gaussians have no edges.");
-  CHECK(changes_text(choice, all) == "Clean edges leave out 214 Gaussians that the scene hides.");
+  CHECK(changes_text(choice, all, {}) == "Clean edges leave out 214 Gaussians that the scene hides.");
   all.count(CleanReport{.reason = "it is not seen"}, "Cup");
   CHECK(edges_stay_text(all) == "Edges of 2 objects stay, Mug the first: 3 Gaussians have no edges.");
   choice.what = ExportWhat::kRest;
   for (const EdgesKnown& edges : {not_yet, cleaned}) {
-    CHECK(amount_text(choice, 139338, edges, plan) == "About 139,338 Gaussians, about 4.3 MB");
-    CHECK(changes_text(choice, edges) ==
+    CHECK(amount_text(choice, 139338, edges, {}, plan) == "About 139,338 Gaussians, about 4.3 MB");
+    CHECK(changes_text(choice, edges, {}) ==
           "With clean edges, what is left of the object leaves, too; what was cut off it and is not its own "
           "stays.");
-    CHECK(loss_text(choice, edges, plan).empty());
+    CHECK(loss_text(choice, edges, {}, plan).empty());
   }
-  CHECK(amount_text(choice, 139338, stays, plan) == "139,338 Gaussians, 4.3 MB");
-  CHECK(loss_text(choice, stays, plan) == "Nothing is lost.");
-  choice.fill_hole = true;
-  CHECK(amount_text(choice, 139338, rows, plan) == "About 139,338 Gaussians, about 4.3 MB");
-  CHECK(changes_text(choice, rows) ==
+  CHECK(amount_text(choice, 139338, stays, {}, plan) == "139,338 Gaussians, 4.3 MB");
+  CHECK(loss_text(choice, stays, {}, plan) == "Nothing is lost.");
+  const HoleKnown coming{.fill = true};
+  CHECK(amount_text(choice, 139338, rows, coming, plan) == "About 139,338 Gaussians, about 4.3 MB");
+  CHECK(changes_text(choice, rows, coming) ==
         "If the object touches a flat surface, that is continued into the hole: what lies there and at the "
         "rim is replaced, and what fills it is invented.");
-  CHECK(loss_text(choice, rows, plan).empty());
+  CHECK(loss_text(choice, rows, coming, plan).empty());
+  SceneWithout filled, refused;
+  filled.patch.changes.given_back.resize(1234, 0);
+  refused.patch.why_not = "there is no hole in what the object stands on";
+  const HoleKnown fills{true, std::make_shared<const SceneWithout>(filled)},
+      stays_open{true, std::make_shared<const SceneWithout>(refused)};
+  CHECK(changes_text(choice, rows, fills) ==
+        "The hole is filled by 1,234 Gaussians, all invented; what lies there and at the rim is replaced.");
+  CHECK(fills.why_not().empty());
+  CHECK(stays_open.why_not() == refused.patch.why_not);
+  CHECK(amount_text(choice, 139338, rows, stays_open, plan) == "139,338 Gaussians, 4.3 MB");
+  CHECK(changes_text(choice, rows, stays_open).empty());
+  choice.what = ExportWhat::kObject;  // which leaves its hole elsewhere
+  CHECK(changes_text(choice, rows, fills).empty());
 }
 
 TEST_CASE("hands: harmonics of every degree turn with the object") {

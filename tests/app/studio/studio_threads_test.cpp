@@ -10,7 +10,7 @@
 
 #include "app/console/output_folder.h"
 #include "app/measure/still_life_files.h"
-#include "app/studio/task_thread.h"
+#include "app/workspace/task_thread.h"
 #include "core/error.h"
 #include "headless_app.h"
 #include "quick.h"

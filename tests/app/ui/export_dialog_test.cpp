@@ -269,6 +269,26 @@ TEST_CASE("export dialog: why the last try failed is gone as soon as anything in
   CHECK(choice.trouble.empty());
 }
 
+TEST_CASE(
+    "export dialog: a typed name stays with another choice of what is written, a proposed one follows") {
+  const ScratchFolder folder("typed_name");
+  Hands hands;
+  const ExportChoice& choice = hands.app.interface_state().exporting;
+  proposed(hands);
+  const std::string object = choice.path;
+  hands.app.press_item("###export", {"Everything else"});
+  CHECK(choice.path != object);
+  hands.app.type_into("###export", {"##path"}, (folder / "mine.ply").string());
+  for (const char* what : {"The object", "Everything else", "The whole scene"}) {
+    hands.app.press_item("###export", {what});
+    CHECK(choice.path == (folder / "mine.ply").string());
+  }
+  hands.app.press_item("###export", {"All objects, a file each"});
+  CHECK(choice.path == (folder / "mine").string());
+  hands.app.press_item("###export", {"The object"});
+  CHECK(target_of(choice) == folder / "mine.ply");
+}
+
 TEST_CASE("export dialog: cancelled it leaves clean edges as they were, exported as they are there") {
   const ScratchFolder folder("switch_kept");
   Hands hands;

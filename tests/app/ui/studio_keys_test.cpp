@@ -143,6 +143,7 @@ const std::map<Action, Check> kChecks = {
     {Action::kHide, shows(DisplayMode::kHide)},
     {Action::kShowAll, shows(DisplayMode::kWhole)},
     {Action::kSideBySide, shows(DisplayMode::kSideBySide)},
+    {Action::kFillHole, view_changed(&ViewState::fill_hole)},
     {Action::kCleanEdges, view_changed(&ViewState::clean_edges)},
     {Action::kTint, view_changed(&ViewState::tint)},
     {Action::kOutline, view_changed(&ViewState::outline)},

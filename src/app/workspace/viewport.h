@@ -12,9 +12,9 @@
 #include "app/picture/camera_controller.h"
 #include "app/picture/frame_thread.h"
 #include "app/picture/styles.h"
-#include "app/studio/cut_jobs.h"
-#include "app/studio/workspace.h"
 #include "app/tools/stroke_marks.h"
+#include "app/workspace/cut_jobs.h"
+#include "app/workspace/workspace.h"
 #include "scene/raster/rasterizer.h"
 
 namespace splatcut {

@@ -1,4 +1,4 @@
-#include "app/studio/cut_jobs.h"
+#include "app/workspace/cut_jobs.h"
 
 #include <fmt/format.h>
 

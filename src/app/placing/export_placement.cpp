@@ -1,4 +1,4 @@
-#include "app/document/export_placement.h"
+#include "app/placing/export_placement.h"
 
 #include <tbb/parallel_for.h>
 

@@ -1,4 +1,4 @@
-#include "app/studio/viewport.h"
+#include "app/workspace/viewport.h"
 
 #include <fmt/format.h>
 
@@ -371,7 +371,7 @@ ToolContext Viewport::tool_context(const glm::vec2& pixel) {
 void Viewport::refresh_marks() {
   marks_.clear();
   const ObjectItem* object = ws_.scene ? ws_.document().active_object() : nullptr;
-  if (!object) return;
+  if (!object || ws_.view.display == DisplayMode::kHide) return;  // dots stand on its surface
   const auto hit = [this](const Camera& camera, const glm::vec2& pixel, const Flags& visible) {
     return hit_in(camera, pixel, visible);
   };

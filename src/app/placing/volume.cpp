@@ -1,9 +1,9 @@
-#include "app/document/volume.h"
+#include "app/placing/volume.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "app/document/pointer_drag.h"
+#include "app/placing/pointer_drag.h"
 
 namespace splatcut {
 

@@ -1,4 +1,4 @@
-#include "app/studio/workspace.h"
+#include "app/workspace/workspace.h"
 
 #include "core/error.h"
 

@@ -1,10 +1,10 @@
-#include "app/document/placing_handles.h"
+#include "app/placing/placing_handles.h"
 
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
-#include "app/document/pointer_drag.h"
+#include "app/placing/pointer_drag.h"
 
 namespace splatcut {
 

@@ -12,7 +12,7 @@
 #include <span>
 #include <string_view>
 
-#include "app/document/placing_handles.h"
+#include "app/placing/placing_handles.h"
 #include "scene/cloud/gaussian_cloud.h"
 #include "scene/formats/axis_signs.h"
 

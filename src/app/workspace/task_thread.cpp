@@ -1,4 +1,4 @@
-#include "app/studio/task_thread.h"
+#include "app/workspace/task_thread.h"
 
 #include <sys/resource.h>
 #include <tbb/task_scheduler_observer.h>

@@ -6,7 +6,7 @@
 #include <glm/gtc/constants.hpp>
 #include <random>
 
-#include "app/document/placing_handles.h"
+#include "app/placing/placing_handles.h"
 #include "hands.h"
 #include "synthetic_cloud.h"
 

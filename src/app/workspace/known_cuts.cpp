@@ -2,7 +2,7 @@
 // a hand has changed it, and the likelihood for the heat map.
 #include "app/picture/cut_pictures.h"
 #include "app/picture/cut_sentences.h"
-#include "app/studio/cut_jobs.h"
+#include "app/workspace/cut_jobs.h"
 #include "segment/session/doubts.h"
 
 namespace splatcut {

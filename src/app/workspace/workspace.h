@@ -15,9 +15,9 @@
 #include "app/document/label_cache.h"
 #include "app/document/opened_scene.h"
 #include "app/document/seen_object.h"
-#include "app/studio/messages.h"
-#include "app/studio/task_thread.h"
 #include "app/tools/pointer_tools.h"
+#include "app/workspace/messages.h"
+#include "app/workspace/task_thread.h"
 #include "scene/cloud/coarse_cloud.h"
 
 namespace splatcut {

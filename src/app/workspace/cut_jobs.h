@@ -13,7 +13,7 @@
 #include <string>
 
 #include "app/picture/cut_run.h"
-#include "app/studio/workspace.h"
+#include "app/workspace/workspace.h"
 
 namespace splatcut {
 

@@ -1,0 +1,144 @@
+// The hole that an object leaves, filled in the window: what is shown, and that exports write the same.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+#include "hands.h"
+#include "segment/finish/shown_part.h"
+
+using namespace splatcut;
+using namespace splatcut::testing;
+
+namespace {
+
+// What the command line fills it by.
+SurfacePatch filled_without_window(Hands& hands, const Flags& deleted = {}) {
+  const OpenedScene& scene = *hands.studio().scene();
+  const auto labels = hands.studio().labels(hands.studio().document().active);
+  const std::vector<std::uint32_t> gone = deleted ? labelled_rows(*deleted) : std::vector<std::uint32_t>();
+  return fill_surface(*scene.cloud, labels, gone, hands.studio().document().up_world, scene.views().cameras,
+                      {});
+}
+
+void keep_edges(Hands& hands) {
+  ViewState view = hands.studio().view();
+  view.clean_edges = false;
+  hands.studio().apply(SetView{view});
+  REQUIRE(hands.app.settle());
+}
+
+bool shows(Hands& hands, const GaussianCloud& cloud) {
+  const Viewport& viewport = hands.studio().viewport();
+  const auto own = raster_frame(cloud, viewport.pane_camera(), nullptr, viewport.draw_limits());
+  return std::ranges::equal(viewport.picture()->frames[0]->colour.pixels(), own->colour.pixels());
+}
+
+void press(Hands& hands, Action action) {
+  hands.studio().run(action);
+  REQUIRE(hands.app.settle());
+}
+
+}  // namespace
+
+TEST_CASE(
+    "hands: without the object the hole is shown filled, as it is exported, and only as long as wanted") {
+  const ScratchFolder folder("filled");
+  Hands hands = hands_on_sample();
+  keep_edges(hands);
+  const SurfacePatch patch = filled_without_window(hands);
+  REQUIRE(patch.why_not.empty());
+  const std::uint64_t document = hands.studio().history().serial();
+  const auto labels = hands.studio().labels(hands.studio().document().active);
+  std::vector<std::uint8_t> rest(labels.size());
+  std::ranges::transform(labels, rest.begin(), [](auto l) { return std::uint8_t(!l); });
+  const GaussianCloud& scene = *hands.studio().scene()->cloud;
+  const GaussianCloud filled = rest_of(scene, rest, patch.changes), open = rest_of(scene, rest, {});
+
+  press(hands, Action::kFillHole);
+  CHECK(hands.studio().view().display == DisplayMode::kHide);
+  CHECK(shows(hands, filled));
+  CHECK_FALSE(shows(hands, open));
+  const auto& hits = hands.studio().viewport().picture()->frames[0]->first_hit.pixels();
+  CHECK(
+      std::ranges::all_of(hits, [&](std::int32_t g) { return g < 0 || rest[static_cast<std::size_t>(g)]; }));
+  CHECK(hands.studio().finish().hole_text() ==
+        "Filled by " + grouped(patch.changes.given_back.size()) + " Gaussians, all invented.");
+  CHECK(hands.studio().history().serial() == document);  // no work of the user's
+
+  const auto& without = hands.studio().viewport().styles().without;
+  REQUIRE(without);
+  CHECK(without->patch.outline_world == patch.outline_world);
+  hands.studio().apply(
+      Export{{ExportWhat::kRest, SceneFormat::kPly, folder / "rest.ply", false, {}, false, true}});
+  REQUIRE(hands.app.settle());
+  CHECK(load_scene(folder / "rest.ply").cloud.size() == filled.size());
+
+  press(hands, Action::kFillHole);
+  CHECK(shows(hands, open));
+  CHECK(hands.studio().finish().hole_text().empty());
+  press(hands, Action::kFillHole);
+  CHECK(shows(hands, filled));
+  press(hands, Action::kShowAll);
+  press(hands, Action::kIsolate);  // the object is not drawn from what the rest was drawn from
+  CHECK_FALSE(shows(hands, filled));
+}
+
+TEST_CASE("hands: a hole is filled anew for other labels, and by nothing that was deleted") {
+  Hands hands = hands_on_sample();
+  keep_edges(hands);
+  press(hands, Action::kFillHole);
+  const auto first = hands.studio().viewport().styles().without;
+  REQUIRE(first);
+  hands.studio().apply(EditSelection{SelectionEdit::kGrow});
+  REQUIRE(hands.app.settle());
+  const auto second = hands.studio().viewport().styles().without;
+  REQUIRE(second);
+  CHECK(second != first);
+  CHECK(second->patch.changes.given_back.position ==
+        filled_without_window(hands).changes.given_back.position);
+  hands.studio().apply(Undo{});
+  REQUIRE(hands.app.settle());
+  CHECK(hands.studio().viewport().styles().without == first);  // it was kept
+
+  // Of another object all is deleted.
+  const ObjectId apple = hands.studio().document().active;
+  hands.studio().apply(NewObject{});
+  hands.app.click(hands.app.screen_of(kOnMug));
+  REQUIRE(hands.app.settle());
+  REQUIRE(hands.selected() > 0);
+  hands.studio().apply(DeleteSelected{});
+  REQUIRE(hands.app.settle());
+  hands.studio().apply(ActivateObject{apple});
+  press(hands, Action::kHide);
+  const auto third = hands.studio().viewport().styles().without;
+  REQUIRE(third);
+  CHECK(third != first);
+  CHECK(third->patch.changes.given_back.position ==
+        filled_without_window(hands, hands.studio().document().deleted).changes.given_back.position);
+}
+
+TEST_CASE("hands: a hole that cannot be filled is said in the picture, before an export and after it") {
+  const ScratchFolder folder("open_hole");
+  Hands hands = hands_on_sample();
+  keep_edges(hands);
+  // All but a few is taken, so nothing is left that it could touch.
+  const std::vector<float> size = property_values(*hands.studio().scene()->cloud, Property::kSize);
+  hands.studio().apply(SelectRange{Property::kSize, *std::ranges::min_element(size) + 0.05f, 100});
+  REQUIRE(hands.app.settle());
+  const SurfacePatch patch = filled_without_window(hands);
+  REQUIRE_FALSE(patch.why_not.empty());
+  press(hands, Action::kFillHole);
+  CHECK(hands.studio().finish().hole_text() == "Not filled: " + patch.why_not + ".");
+  CHECK_FALSE(hands.studio().viewport().clean(0));
+  hands.app.key('E', {.ctrl = true});
+  hands.app.frames(3);
+  hands.app.press_item("###export", {"Everything else"});
+  REQUIRE(hands.studio().finish().without());
+  CHECK(hands.studio().finish().without()->patch.why_not == patch.why_not);
+  hands.studio().apply(
+      Export{{ExportWhat::kRest, SceneFormat::kPly, folder / "rest.ply", false, {}, false, true}});
+  REQUIRE(hands.app.settle());
+  CAPTURE(hands.said());
+  CHECK(hands.studio().messages().back().kind == Message::Kind::kRefused);  // no green tick
+  CHECK(hands.said().find("No hole is filled: " + patch.why_not) != std::string::npos);
+}
