@@ -19,7 +19,7 @@ constexpr float kPi = std::numbers::pi_v<float>;
 // Where each term begins to cost: logarithms of ratios, or shares.
 constexpr float kCentral = 0.7f;
 constexpr float kScrapFolds = -0.3f, kFoldSlack = 1, kGiantFolds = 3.25f, kHiddenFolds = 2,
-                kTakesFolds = 0.4f;
+                kTakesFolds = 0.4f, kGrowsFolds = 0.7f;
 constexpr float kBorderPx = 2;
 constexpr float kLeastCut = -16;  // of a part that touches nothing
 
@@ -248,6 +248,8 @@ void Asking::add_size_terms(const Chain& chain, Candidate* candidate) const {
     constexpr float kLeastLeft = 0.02f;
     const float left = std::max(1 - changed_px / std::max(object_px_, 1.0f), kLeastLeft);
     term(candidate, Term::kTakes) = at_least_0(-std::log(left) - kTakesFolds);
+  } else if (!selected_.changes.empty() && object_px_ >= 1) {
+    term(candidate, Term::kTakes) = at_least_0(std::log1p(changed_px / object_px_) - kGrowsFolds);
   }
   if (!chain.of_tree) return;  // another meaning of the first click: most of it is out of sight by nature
   const float px_per_unit =
@@ -387,17 +389,17 @@ void Asking::add_disc() {
   out_.candidates.push_back(disc);
 }
 
-// kOffCentre, of the likeliest candidates first, until none that is left can win; drops those unless all are
-// wanted. A first click keeps more of them: a later click on the background may choose another.
+// kOffCentre, of the likeliest candidates first, until none that is left can win, as it only adds; drops
+// those unless all are wanted. A first click keeps more of them: a later click on the background may choose
+// another.
 void Asking::measure_off_centre(bool all) {
   constexpr float kUnlikely = 5;  // 150 times less likely than the likeliest
-  const std::size_t most = click_.first ? 96 : 24;
   const float margin = click_.first ? kUnlikely : 0;
   const float dear = weight(weights_, Term::kOffCentre);
   float best = std::numeric_limits<float>::max();
   std::size_t looked_at = 0;
   for (Candidate& candidate : out_.candidates) {
-    if (!all && (looked_at == most || candidate.cost > best + margin)) break;
+    if (!all && candidate.cost > best + margin) break;
     ++looked_at;
     const bool of_tree = candidate.index != Candidate::kDiscAlone && out_.chains[candidate.chain].of_tree;
     if (of_tree) {

@@ -31,8 +31,11 @@
 // - kHidden (later clicks): max(0, ln(H) - 2). H: area that would change, in pixels at the clicked leaf's
 //   depth, over the pixels that would change or the disc's, whichever are more. It is large if most of the
 //   change is where the user cannot see it.
-// - kTakes (later clicks on the rest): max(0, -ln(share of the object's pixels in the view that would be
-//   left) - 0.4). People take parts away from an object, and undo if they want nearly all of it gone.
+// - kTakes (later clicks): on the rest max(0, -ln(share of the object's pixels in the view that would be
+// left)
+//   - 0.4): people take parts away from an object, and undo if they want nearly all of it gone. On the
+//   object, from the second correction on, max(0, ln(how many times as many there would be) - 0.7): by then
+//   most of it is there, and a cable's table is not meant.
 // - kOpposed: number of clicks of the other sign in the node.
 // - kBack (later clicks): largest IoU with what a click of the other sign has changed. People undo in that
 //   case.

@@ -227,9 +227,50 @@ TEST_CASE("selection: a click on the rest pays for what it would leave of the ob
   CHECK(selected({sized(object(5), 1), rest(35)}, model) == Labels{1, 1, 0, 0});
   weight(&model.later, Term::kTakes) = 26;
   CHECK(selected({sized(object(5), 1), rest(35)}, model) == Labels{1, 1, 1, 0});
-  // A click on the object gives, and pays nothing.
+  // A first correction on the object gives, and pays nothing.
   weight(&model.later, Term::kTakes) = 1000;
   CHECK(selected({object(5), object(25)}, model) == Labels{1, 1, 1, 1});
+}
+
+TEST_CASE("selection: a further click on the object pays for what would make it much larger in the view") {
+  // The object shows in a quarter of the view. The pair under the click costs ln(0.001 / sqrt 2) = -7.25 and
+  // would make it four times as large, ln 4 - 0.7 = 0.686; its leaf costs 0 and would double it, ln 2 < 0.7.
+  const PartHierarchy parts = four_leaves();
+  const LeafView view = stripes(parts), other = stripes(parts, {0, 2, 3, 3});
+  for (const auto& [takes, expected] : {std::pair{10.0f, Labels{1, 1, 1, 1}}, {11.0f, Labels{1, 1, 1, 0}}}) {
+    SelectionModel model = borders_alone();
+    weight(&model.later, Term::kTakes) = takes;
+    ClickSelection selection(parts, model);
+    selection.apply(view, sized(object(5), -1));
+    selection.apply(view, object(15));
+    REQUIRE(selection.labels() == Labels{1, 1, 0, 0});
+    selection.apply(other, object(15));
+    CHECK(selection.labels() == expected);
+  }
+}
+
+TEST_CASE("selection: of many alike in many trees none wins that a click in its middle would have to mean") {
+  // A block before a wall: the click is in the middle of the block, and far off that of both together, which
+  // 30 trees hold. ln(0.7 / 0.25) = 1.03 times 10 is more than the -7.25 that their border costs.
+  PartHierarchy parts = four_leaves();
+  while (parts.trees.size() < 30) parts.trees.push_back(parts.trees.front());
+  parts.plain_trees = parts.trees.size();
+  Camera camera = look_at({0, 0, -10}, {0, 0, 0}, {0, -1, 0}, 1, 60, 40);
+  camera.fx_px = camera.fy_px = 100;
+  Image<std::int32_t> hit(60, 40, 3);
+  for (int y = 0; y < 40; ++y)
+    for (int x = 0; x < 60; ++x) {
+      if (x < 20) hit.at(x, y) = x / 10;
+      if (x >= 20 && x < 30 && y >= 15 && y < 25) hit.at(x, y) = 2;
+    }
+  const LeafView view = leaf_view_of_hits(parts, camera, hit);
+  SelectionModel model = borders_alone();
+  weight(&model.later, Term::kOffCentre) = 10;
+  ClickSelection selection(parts, model);
+  selection.apply(view, object(5));
+  REQUIRE(selection.labels() == Labels{1, 1, 0, 0});
+  selection.apply(view, click({25, 20}, SeedLabel::kObject));
+  CHECK(selection.labels() == Labels{1, 1, 1, 0});
 }
 
 TEST_CASE("selection: what would mostly change where the view does not show it is dear") {
