@@ -18,8 +18,10 @@ std::string what_changed(const std::vector<std::uint8_t>& before, const std::vec
 
 bool is_of_stroke(const History& history);  // the last that was done is a stroke
 
-// What the wheel can do about a click that took the wrong size; empty: there is no other.
-std::string wheel_hint(const CutRequest& request, const CutResult& result);
+// What the wheel can do about a click that took the wrong size; empty: there is no other. What changed too
+// little to be seen was not too much. before, after: as above.
+std::string wheel_hint(const CutRequest& request, const CutResult& result,
+                       const std::vector<std::uint8_t>& before, const std::vector<std::uint8_t>& after);
 
 // Adds to the doubts how many sides, the user's own among them, are in doubt by their pictures, each of which
 // has a mark; returns false if none is.

@@ -351,7 +351,8 @@ void CutJobs::finish(const Order& order, CutRun run, const Flags& labels) {
   const std::string box =
       *before == *labels_now() ? "" : added_by_box(ws_.history, order.object, ws_.context());
   const std::string shared = box + shared_with(ws_.document(), order.object, labels_of_item);
-  const std::string hint = ws_.tools.scale_armed() ? wheel_hint(order.request, *result) : "";
+  const std::string hint =
+      ws_.tools.scale_armed() ? wheel_hint(order.request, *result, *before, *labels_now()) : "";
   ws_.say(doubt.empty() ? Message::Kind::kDone : Message::Kind::kInfo,
           fmt::format("{}: {}{}{}", name, changed, shared, doubt.empty() ? hint : ". But " + doubt));
 }
