@@ -58,17 +58,13 @@ void scroll_by_keys() {
 }  // namespace
 
 std::string pointer_words() {
-  return std::string("Click: ") + Tool::kClick.sentence + "\nNavigate: " + Tool::kNavigate.sentence +
-         "\nA middle drag turns with any tool, with Shift it shifts; a right drag shifts where the right "
-         "button "
-         "does nothing else. The wheel zooms; with Shift it steps through larger and smaller parts of what "
-         "was "
-         "clicked last at any time; while a flight key is held, it changes the speed. While other meanings "
-         "of "
-         "a click are shown, 1, 2 and 3 choose one, and no tool, until Esc, 4 (box) or a tool's button. With "
-         "tools that click, draw or select, Shift adds, Ctrl removes and Alt intersects. Alt+wheel changes "
-         "the "
-         "brush. Tab and Shift+Tab mark buttons and fields, Enter presses what is marked.";
+  return std::string("Click: ") + Tool::kClick.sentence + " Navigate: " + Tool::kNavigate.sentence +
+         " A middle drag turns with any tool, with Shift it shifts. Shift+wheel: sizes of the last click at "
+         "any "
+         "time; while a flight key is held, the wheel changes the speed. While other meanings of a click are "
+         "shown, 1, 2 and 3 choose one, until Esc. Where one clicks, draws or selects, Shift adds, Ctrl "
+         "removes, "
+         "Alt intersects. Alt+wheel: the brush. Tab marks buttons and fields, Enter presses them.";
 }
 
 float keys_width() {
