@@ -1,6 +1,7 @@
 #include "app/picture/cut_pictures.h"
 
 #include <algorithm>
+#include <numeric>
 #include <optional>
 
 #include "app/picture/stroke_change.h"
@@ -14,6 +15,7 @@ namespace {
 
 constexpr int kViewsToLookFrom = 6;
 constexpr int kThumbnailWidth = 160;
+constexpr float kSameDirection = 0.94f;  // cosine, 20 degrees: views around an object are farther apart
 constexpr const char* kThroughSurface = "here the border runs through a surface";
 constexpr double kMuchThroughSurface =
     0.2;  // see share_through_surface(); whole things of the sample have .13 at most
@@ -48,20 +50,73 @@ Image<Rgba8> thumbnail(const RasterOutput& drawn, const Mask& mask, bool counts,
   return out;
 }
 
-ViewCard card_of(const ViewReport& view, Image<Rgba8> picture) {
-  return {view.camera,
-          view.used,
-          view.confidence,
-          view.reason,
-          std::make_shared<const Image<Rgba8>>(std::move(picture)),
-          false,
-          {},
-          false,
-          {},
-          0};
+// Pairs of neighbouring pixels about a mask's border, from one pixel before it to one behind it, as splats on
+// it are blended.
+struct Border {
+  int pairs = 0;
+  std::vector<glm::ivec2> inside, outside;  // of the pairs that lie on one surface
+  double share() const {
+    constexpr int kFewest = 24;  // a smaller border says nothing
+    return pairs < kFewest ? 0 : static_cast<double>(inside.size()) / pairs;
+  }
+};
+
+Border border_of(const RasterOutput& drawn, const Mask& mask) {
+  constexpr float kOneColour = 0.08f;  // largest difference in a channel
+  const Mask small = resized_mask(mask, drawn.colour.width(), drawn.colour.height());
+  const Image<float>& depth = drawn.median_depth;
+  Border border;
+  const auto look = [&](const glm::ivec2& p, const glm::ivec2& step) {
+    const glm::ivec2 q = p + step, inside = p - step, outside = q + step;
+    if (!small.at(p.x, p.y) || !small.contains(q.x, q.y) || small.at(q.x, q.y)) return;
+    if (!small.contains(inside.x, inside.y) || !small.contains(outside.x, outside.y)) return;
+    ++border.pairs;
+    const glm::vec3 change =
+        glm::abs(drawn.colour.at(inside.x, inside.y) - drawn.colour.at(outside.x, outside.y));
+    if (std::max({change.r, change.g, change.b}) >= kOneColour ||
+        depth_jumps(depth, inside, outside, kJumpAtBorderOfPart))
+      return;
+    border.inside.push_back(inside);
+    border.outside.push_back(outside);
+  };
+  for (int y = 0; y < small.height(); ++y)
+    for (int x = 0; x < small.width(); ++x)
+      for (const glm::ivec2& step : {glm::ivec2(1, 0), {-1, 0}, {0, 1}, {0, -1}}) look({x, y}, step);
+  return border;
 }
 
-// Why the object is in doubt in a view that does not stand where the user stood; empty where it is not.
+// Whether it runs through a surface; then the card is in doubt, of the Gaussians on both sides of it.
+bool doubts_border(const Drawer& drawer, const RasterOutput& drawn, const Mask& mask, const Job& job,
+                   ViewCard* card) {
+  const Border border = border_of(drawn, mask);
+  if (border.share() <= kMuchThroughSurface) return false;
+  RasterOptions options;
+  options.colour = false;
+  std::vector<std::uint32_t> own_number(drawer.cloud().size());
+  std::iota(own_number.begin(), own_number.end(), 0u);
+  options.groups = own_number;
+  const Image<std::uint32_t> shown =
+      drawer.draw(limited_to_width(card->camera, kThumbnailWidth), options, job).group;
+  OpenDoubt doubt;
+  doubt.is_border = true;
+  for (const auto& [pixels, gaussians] :
+       {std::pair(&border.inside, &doubt.in), {&border.outside, &doubt.out}})
+    for (const glm::ivec2& p : *pixels)
+      if (shown.at(p.x, p.y) != kNoGroup) gaussians->push_back(shown.at(p.x, p.y));
+  card->doubt = kThroughSurface;
+  card->open = std::make_shared<const OpenDoubt>(std::move(doubt));
+  return true;
+}
+
+ViewCard card_of(const ViewReport& view, Image<Rgba8> picture) {
+  return {.camera = view.camera,
+          .used = view.used,
+          .confidence = view.confidence,
+          .reason = view.reason,
+          .picture = std::make_shared<const Image<Rgba8>>(std::move(picture))};
+}
+
+// Whether anybody saw the side that a view around the object shows; why not, or empty.
 class DoubtsOfSides {
  public:
   DoubtsOfSides(const Session& session, const CutRequest& request, const CutResult& result)
@@ -70,8 +125,7 @@ class DoubtsOfSides {
               request.up_world.value_or(session.scene().up_world),
               -result.views.front().camera.forward_world(), capture_) {}
 
-  std::string of(const Camera& camera, const RasterOutput& drawn, const Mask& mask, const Job& job) const {
-    if (share_through_surface(drawn, mask) > kMuchThroughSurface) return kThroughSurface;
+  std::string of(const Camera& camera, const Job& job) const {
     const glm::vec3 away = camera.centre_world() - seen_.extent().centre_world;
     if (!(glm::length(away) > 0) ||
         seen_.share(glm::normalize(away), kLeastSeenShare, job) >= kLeastSeenShare)
@@ -107,6 +161,7 @@ std::optional<StrokeChange> change_of(const Session& session, const CutShown& cu
 void tell(const ChangeSeen& changed, ViewCard* card) {
   card->doubt = changed.doubt;
   card->doubt_of_stroke = !changed.doubt.empty();
+  if (card->doubt_of_stroke) card->open = std::make_shared<const OpenDoubt>(changed.open);
   if (count(changed.left) + count(changed.came) > 0)
     card->legend = "\nRed left with the last stroke, green came with it.";
 }
@@ -119,26 +174,7 @@ bool looked_around_by_none(const CutResult& result, const CutRequest& request, c
 }  // namespace
 
 double share_through_surface(const RasterOutput& drawn, const Mask& mask) {
-  constexpr float kOneColour = 0.08f;  // largest difference in a channel
-  constexpr int kFewest = 24;          // pairs of pixels: a smaller border says nothing
-  const Mask small = resized_mask(mask, drawn.colour.width(), drawn.colour.height());
-  const Image<float>& depth = drawn.median_depth;
-  int pairs = 0, through = 0;
-  // From one pixel before the border to one behind it, as splats on it are blended.
-  const auto look = [&](const glm::ivec2& p, const glm::ivec2& step) {
-    const glm::ivec2 q = p + step, inside = p - step, outside = q + step;
-    if (!small.at(p.x, p.y) || !small.contains(q.x, q.y) || small.at(q.x, q.y)) return;
-    if (!small.contains(inside.x, inside.y) || !small.contains(outside.x, outside.y)) return;
-    ++pairs;
-    const glm::vec3 change =
-        glm::abs(drawn.colour.at(inside.x, inside.y) - drawn.colour.at(outside.x, outside.y));
-    through += std::max({change.r, change.g, change.b}) < kOneColour &&
-               !depth_jumps(depth, inside, outside, kJumpAtBorderOfPart);
-  };
-  for (int y = 0; y < small.height(); ++y)
-    for (int x = 0; x < small.width(); ++x)
-      for (const glm::ivec2& step : {glm::ivec2(1, 0), {-1, 0}, {0, 1}, {0, -1}}) look({x, y}, step);
-  return pairs < kFewest ? 0 : static_cast<double>(through) / pairs;
+  return border_of(drawn, mask).share();
 }
 
 ViewCard mask_card(const ViewReport& view, const Rgb8& colour) {
@@ -154,6 +190,7 @@ ViewCard mask_card(const ViewReport& view, const Rgb8& colour) {
 std::vector<ViewCard> picture_cards(Session& session, const CutShown& cut, const Job& job) {
   const GaussianCloud& cloud = *session.scene().cloud;
   const CutResult& result = cut.result;
+  const Drawer drawer(cloud, nullptr, &session.blocks());
   const std::optional<StrokeChange> change = change_of(session, cut, job);
   const auto changed_in = [&](const Camera& camera) {
     return change ? change->seen_from(limited_to_width(camera, kThumbnailWidth), job) : ChangeSeen();
@@ -167,9 +204,7 @@ std::vector<ViewCard> picture_cards(Session& session, const CutShown& cut, const
     if (job.cancelled()) return cards;
     cards.push_back(card_of(view, thumbnail(drawn, view.mask, view.used, cut.colour, changed)));
     tell(changed, &cards.back());
-    if (cards.back().doubt.empty() && view.used &&
-        share_through_surface(drawn, view.mask) > kMuchThroughSurface)
-      cards.back().doubt = kThroughSurface;
+    if (cards.back().doubt.empty() && view.used) doubts_border(drawer, drawn, view.mask, job, &cards.back());
   }
   if (!looked_around_by_none(result, cut.request, cut.settings) || result.views.empty()) return cards;
   const DoubtsOfSides doubts(session, cut.request, result);
@@ -185,7 +220,8 @@ std::vector<ViewCard> picture_cards(Session& session, const CutShown& cut, const
         std::make_shared<const Image<Rgba8>>(thumbnail(drawn, mask, true, cut.colour, changed));
     cards.push_back({.camera = view.camera, .used = false, .picture = picture, .only_to_look = true});
     tell(changed, &cards.back());
-    if (cards.back().doubt.empty()) cards.back().doubt = doubts.of(view.camera, drawn, mask, job);
+    if (cards.back().doubt.empty() && !doubts_border(drawer, drawn, mask, job, &cards.back()))
+      cards.back().doubt = doubts.of(view.camera, job);
   }
   return cards;
 }
@@ -200,7 +236,6 @@ CutResult with_labels(const Session& session, CutResult result, const std::vecto
 }
 
 std::vector<ViewCard> in_places_of(const std::vector<ViewCard>& before, std::vector<ViewCard> cards) {
-  constexpr float kSameDirection = 0.94f;  // cosine, 20 degrees: views around an object are farther apart
   std::vector<ViewCard> out, left;
   for (ViewCard& card : cards)
     (out.empty() ? out : left).push_back(std::move(card));  // the user's own is first
@@ -216,6 +251,61 @@ std::vector<ViewCard> in_places_of(const std::vector<ViewCard>& before, std::vec
   }
   std::ranges::move(left, std::back_inserter(out));
   return out;
+}
+
+namespace {
+
+// Those that are still labelled so; none once more than half changed.
+std::vector<std::uint32_t> still(const std::vector<std::uint32_t>& gaussians,
+                                 const std::vector<std::uint8_t>& labels, bool in) {
+  std::vector<std::uint32_t> out;
+  std::ranges::copy_if(gaussians, std::back_inserter(out),
+                       [&](std::uint32_t g) { return (labels[g] != 0) == in; });
+  if (2 * out.size() < gaussians.size()) out.clear();
+  return out;
+}
+
+void keep_doubt(const OpenDoubt& doubt, ViewCard* card) {
+  if (card->doubt.empty())
+    card->doubt = doubt.is_border
+                      ? std::string(kThroughSurface)
+                      : std::string("something here was ") + (doubt.out.empty() ? "added" : "taken away") +
+                            " before, unseen from where you clicked or drew";
+  if (card->open && (doubt.is_border || card->open->is_border)) return;
+  OpenDoubt both = doubt;
+  if (card->open) {
+    both.out.insert(both.out.end(), card->open->out.begin(), card->open->out.end());
+    both.in.insert(both.in.end(), card->open->in.begin(), card->open->in.end());
+  }
+  card->open = std::make_shared<const OpenDoubt>(std::move(both));
+}
+
+}  // namespace
+
+void keep_doubts(const std::vector<ViewCard>& before, const std::vector<std::uint8_t>& labels,
+                 std::vector<ViewCard>* cards) {
+  for (const ViewCard& old : before) {
+    if (!old.open || old.looked_at || cards->empty()) continue;
+    const OpenDoubt open{still(old.open->out, labels, false), still(old.open->in, labels, true),
+                         old.open->is_border};
+    if (open.is_border ? open.out.empty() || open.in.empty() : open.out.empty() && open.in.empty()) continue;
+    keep_doubt(open, &*std::ranges::max_element(*cards, {}, [&](const ViewCard& c) {
+                 return glm::dot(c.camera.forward_world(), old.camera.forward_world());
+               }));
+  }
+}
+
+bool looks_at(const Camera& camera, const ViewCard& card, const GaussianCloud& cloud) {
+  if (!card.open || glm::dot(camera.forward_world(), card.camera.forward_world()) < kSameDirection)
+    return false;
+  std::size_t inside = 0;
+  for (const std::vector<std::uint32_t>* gaussians : {&card.open->out, &card.open->in})
+    for (const std::uint32_t g : *gaussians) {
+      const glm::vec3 at = camera.camera_from_world(cloud.position[g]);
+      const glm::vec2 pixel = camera.pixel_from_camera(at), most(camera.width_px, camera.height_px);
+      inside += at.z > 0 && glm::all(glm::lessThan(glm::abs(2.0f * pixel - most), most));
+    }
+  return 2 * inside > card.open->out.size() + card.open->in.size();
 }
 
 namespace {

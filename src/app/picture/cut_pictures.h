@@ -42,6 +42,15 @@ CutResult with_labels(const Session& session, CutResult result, const std::vecto
 // follow. The first card, which is the user's own view, stays first.
 std::vector<ViewCard> in_places_of(const std::vector<ViewCard>& before, std::vector<ViewCard> cards);
 
+// Doubts of the cards before the last stroke that nobody looked at: a side that lost or got something out of
+// sight, or where a border ran through a surface, stays in doubt until half of that changed back. labels: of
+// now.
+void keep_doubts(const std::vector<ViewCard>& before, const std::vector<std::uint8_t>& labels,
+                 std::vector<ViewCard>* cards);
+
+// Whether the camera shows, from the card's side, what the card is in doubt of.
+bool looks_at(const Camera& camera, const ViewCard& card, const GaussianCloud& cloud);
+
 // Meanings of the first click, with outlines; null if the result has none yet.
 std::shared_ptr<const ClickMeanings> meanings_of(const CutRequest& request, const CutResult& result);
 

@@ -13,6 +13,12 @@
 
 namespace splatcut {
 
+// Gaussians that a side is in doubt of, as it shows them: out of the object, or in it.
+struct OpenDoubt {
+  std::vector<std::uint32_t> out, in;
+  bool is_border = false;  // true: of both sides of a border through a surface; else strokes took, or added
+};
+
 // A view that the cut used, as the thumbnail strip shows it.
 struct ViewCard {
   Camera camera;
@@ -23,8 +29,10 @@ struct ViewCard {
   bool only_to_look = false;     // true: the view had no influence on the cut
   std::string doubt;             // why the cutout is in doubt there, after "In doubt: "; empty: it is not
   bool doubt_of_stroke = false;  // true: it is of what the last stroke changed
-  std::string legend;            // what its marks of that change mean, a line of its own; empty: it has none
-  std::uint64_t serial = 0;      // number that changes with the picture
+  std::shared_ptr<const OpenDoubt> open{};  // what it is of, also since earlier strokes; null: not known
+  bool looked_at = false;                   // true: somebody looked at it, so it ends with the next stroke
+  std::string legend;        // what its marks of that change mean, a line of its own; empty: it has none
+  std::uint64_t serial = 0;  // number that changes with the picture
 };
 
 using Borders = std::vector<std::vector<glm::vec2>>;  // closed lines

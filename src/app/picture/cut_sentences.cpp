@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "app/document/words.h"
+#include "segment/session/doubts.h"
 
 namespace splatcut {
 
@@ -22,6 +23,29 @@ std::string what_changed(const std::vector<std::uint8_t>& before, const std::vec
   if (added + removed == 0) return gaussians_text(is) + ", as before: that changed nothing";
   return fmt::format("{}, {} added and {} removed in {:.1f} s", gaussians_text(is), grouped(added),
                      grouped(removed), seconds);
+}
+
+bool is_of_stroke(const History& history) {
+  const std::string& title = history.entries()[history.cursor()].title;
+  return !history.left() && history.can_undo() &&
+         (title.starts_with("Click") || title.starts_with("Scribble"));
+}
+
+std::string wheel_hint(const CutRequest& request, const CutResult& result,
+                       const std::vector<std::uint8_t>& before, const std::vector<std::uint8_t>& after) {
+  constexpr double kLittle = 0.02;  // of the object
+  if (result.sizes < 2 || first_stroke(request.strokes) == last_stroke(request.strokes))
+    return unsure(result) ? ". Not all of it? Turn the wheel for another size" : "";
+  std::size_t is = 0, changed = 0;
+  for (std::size_t g = 0; g < after.size(); ++g) {
+    is += after[g];
+    changed += before[g] != after[g];
+  }
+  const bool largest = result.size + 1 == result.sizes;
+  if (static_cast<double>(changed) < kLittle * static_cast<double>(is))
+    return largest ? "" : ". Too little? Turn the wheel";
+  if (result.size == 0) return ". Too little? Turn the wheel";
+  return largest ? ". Too much? Turn the wheel" : ". Too much or too little? Turn the wheel";
 }
 
 bool add_doubt_of_sides(CutRun* run) {

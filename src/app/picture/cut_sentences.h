@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/document/history.h"
 #include "app/picture/cut_run.h"
 
 namespace splatcut {
@@ -14,6 +15,13 @@ namespace splatcut {
 // the scene's Gaussians, of one length.
 std::string what_changed(const std::vector<std::uint8_t>& before, const std::vector<std::uint8_t>& after,
                          double seconds);
+
+bool is_of_stroke(const History& history);  // the last that was done is a stroke
+
+// What the wheel can do about a click that took the wrong size; empty: there is no other. What changed too
+// little to be seen was not too much. before, after: as above.
+std::string wheel_hint(const CutRequest& request, const CutResult& result,
+                       const std::vector<std::uint8_t>& before, const std::vector<std::uint8_t>& after);
 
 // Adds to the doubts how many sides, the user's own among them, are in doubt by their pictures, each of which
 // has a mark; returns false if none is.

@@ -62,7 +62,7 @@ ChangeSeen StrokeChange::seen_from(const Camera& camera, const Job& job) const {
   options.groups = part_of;
   const Image<std::uint32_t> part = scene_.draw(camera, options, job).group;
   const Mask none(part.width(), part.height());
-  ChangeSeen seen{none, none, none, {}};
+  ChangeSeen seen{none, none, none, {}, {}};
   std::array<double, kParts> px{};
   for (std::size_t i = 0; i < part.size(); ++i) {
     const std::uint32_t p = part.pixels()[i] == kNoGroup ? kOther : part.pixels()[i];
@@ -75,10 +75,16 @@ ChangeSeen StrokeChange::seen_from(const Camera& camera, const Job& job) const {
   const auto is_much = [&](Part unseen, Part in_sight, double share) {
     return px[unseen] >= kFewestPx && px[unseen] >= share * (px[kStayed] + px[in_sight] + px[unseen]);
   };
+  const auto note = [&](Part unseen, std::vector<std::uint32_t>* noted, const char* doubt) {
+    for (std::uint32_t g = 0; g < part_of.size(); ++g)
+      if (part_of[g] == unseen && here[g] > 0) noted->push_back(g);
+    if (seen.doubt.empty()) seen.doubt = doubt;
+  };
   if (is_much(kLeftUnseen, kLeft, kMuchLeft))
-    seen.doubt = "what is red here was taken away, unseen from where you clicked or drew";
-  else if (is_much(kCameUnseen, kCame, kMuchCame))
-    seen.doubt = "what is green here was added, unseen from where you clicked or drew";
+    note(kLeftUnseen, &seen.open.out,
+         "what is red here was taken away, unseen from where you clicked or drew");
+  if (is_much(kCameUnseen, kCame, kMuchCame))
+    note(kCameUnseen, &seen.open.in, "what is green here was added, unseen from where you clicked or drew");
   return seen;
 }
 

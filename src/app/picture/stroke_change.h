@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "app/picture/cut_run.h"
 #include "core/job.h"
 #include "scene/raster/projected_view.h"
 #include "segment/session/cut_request.h"
@@ -25,6 +26,7 @@ namespace splatcut {
 struct ChangeSeen {
   Mask object, left, came;  // what the object is now; what it lost; of `object`, what is new
   std::string doubt;        // see ViewCard::doubt
+  OpenDoubt open;           // what the doubt is of; empty without one
 };
 
 // Refers to scene and labels.

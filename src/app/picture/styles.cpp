@@ -103,6 +103,7 @@ Styles styled(const StyleOrder& order, const Styles& before, LabelCache* labels)
   style.outline = order.view.outline;
   std::vector<std::uint8_t> owner(n, 0);
   Flags active;
+  std::uint8_t chosen = 0;  // number of the active object, whose tint lies over the others'
   bool any = false;
   for (std::size_t i = 0; i < document.objects.size(); ++i) {
     const ObjectItem& object = document.objects[i];
@@ -114,8 +115,12 @@ Styles styled(const StyleOrder& order, const Styles& before, LabelCache* labels)
     for (std::size_t g = 0; object.visible && g < n; ++g)
       if ((*own)[g]) owner[g] = number;
     any |= object.visible;
-    if (object.id == document.active) active = own;
+    if (object.id != document.active) continue;
+    active = own;
+    if (object.visible) chosen = number;
   }
+  for (std::size_t g = 0; chosen != 0 && g < n; ++g)
+    if ((*active)[g]) owner[g] = chosen;
   if (any) style.owner = make_flags(std::move(owner));
   if (!active) active = make_flags(std::vector<std::uint8_t>(n, 0));
   if (shows_seen_heat(order.view))

@@ -1,5 +1,5 @@
-// The sizes that the last click can have. Those beside the one that it has are shown as long as the wheel
-// takes them, and for a while after a step; the one that was asked for is shown until it is computed.
+// The sizes that the last click can have. Those beside the one that it has are shown while the pointer stays
+// on its dot, and for a while after a step; the one that was asked for is shown until it is computed.
 #include <algorithm>
 
 #include "app/studio/clicks.h"
@@ -19,7 +19,7 @@ void Clicks::note_sizes() {
 }
 
 float Clicks::sizes_opacity() const {
-  if (ws_.tools.scale_armed() || (cuts_.cutting() != 0 && cuts_.cutting() == ws_.document().active)) return 1;
+  if (on_last_dot() || (cuts_.cutting() != 0 && cuts_.cutting() == ws_.document().active)) return 1;
   const double since_s = ws_.clock_s - stepped_s_;
   return static_cast<float>(std::clamp(1 - (since_s - kShownSeconds) / kFadeSeconds, 0.0, 1.0));
 }

@@ -206,8 +206,8 @@ const StrokeMark* Clicks::pointed_mark() const {
 
 // Nothing without a hit under the pointer.
 std::optional<Clicks::HoverAsk> Clicks::hover_wanted() const {
-  // Where the wheel takes another size of the last click, that is outlined, not what the next one changes.
-  if (!pointer_inside_ || !asks_ahead() || pointed_mark() || (ws_.tools.scale_armed() && sizes())) return {};
+  // On the dot of the last click the sizes of it are outlined, not what the next one changes.
+  if (!pointer_inside_ || !asks_ahead() || pointed_mark() || (on_last_dot() && sizes())) return {};
   const ObjectItem* active = ws_.document().active_object();
   const Camera camera = viewport_.pane_camera();
   const auto hit = viewport_.pick(ws_.tools.pointer_px());

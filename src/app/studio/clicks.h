@@ -38,11 +38,12 @@ class Clicks {
   // size_wanted(): the one that the document asks for, which StrokeSizes::size becomes once it is computed.
   const StrokeSizes* known_sizes() const;
   std::size_t size_wanted() const;
-  // The same as long as the wheel takes them, and for a while after a step, when the size wanted and those
-  // next to it show; null: none show.
+  // The same while the pointer stays on the dot of that click, and for a while after a step of the wheel,
+  // when the size wanted and those next to it show; null: none show. Beside the dot the wheel takes them,
+  // too, and what shows is what a click there would change.
   const StrokeSizes* sizes() const;
-  float sizes_opacity() const;                                             // opacity of sizes(), from 1 to 0
-  bool sizes_fade() const { return sizes() && !ws_.tools.scale_armed(); }  // true: it changes with time
+  float sizes_opacity() const;                                   // opacity of sizes(), from 1 to 0
+  bool sizes_fade() const { return sizes() && !on_last_dot(); }  // true: it changes with time
   // Mark under the pointer, whose click one of the other label would take away; null: none.
   const StrokeMark* pointed_mark() const;
   // True if the active object's clicks found nothing, mostly because they were made from too far away.
@@ -84,6 +85,7 @@ class Clicks {
   const ClickMeanings* offered() const;
   std::optional<HoverAsk> hover_wanted() const;
   bool asks_ahead() const;
+  bool on_last_dot() const { return ws_.tools.scale_armed() && viewport_.mark_at(ws_.tools.pointer_px()); }
   void refresh_hover();
   void make_ready();
   void leave_what_came();

@@ -1,9 +1,39 @@
 // Tools that set points on what is seen: the ground, and a length.
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+
 #include "app/tools/tool_hand.h"
+#include "core/ranks.h"
 
 namespace splatcut {
 
 namespace {
+
+// Where a ground lies below the pixel: a Gaussian alone in the air shows before, or through a gap behind, all
+// that is around it, and the depth in the middle of that counts.
+std::optional<glm::vec3> solid_point(const ToolHand& hand) {
+  constexpr int kAround = 8;
+  constexpr float kRadiusPoints = 14, kSameDepth = 0.02f;  // of the depth
+  const Camera& camera = hand.context.pane_camera;
+  const auto depth = [&](const PickedPoint& point) {
+    return camera.camera_from_world(point.position_world).z;
+  };
+  const auto own = hand.context.pick(hand.at_px);
+  if (!own) return {};
+  std::vector<float> depths = {depth(*own)};
+  for (int i = 0; i < kAround; ++i) {
+    const float angle = glm::two_pi<float>() * static_cast<float>(i) / kAround;
+    const glm::vec2 aside =
+        kRadiusPoints * hand.context.pixels_per_point * glm::vec2(std::cos(angle), std::sin(angle));
+    if (const auto point = hand.context.pick(hand.at_px + aside)) depths.push_back(depth(*point));
+  }
+  const auto [least, most] = std::minmax_element(depths.begin() + 1, depths.end());
+  const float slack = kSameDepth * depths.front();
+  if (depths.size() < kAround / 2 || (depths.front() > *least - slack && depths.front() < *most + slack))
+    return own->position_world;
+  return camera.world_from_pixel(hand.at_px, median(depths));
+}
 
 void add_point(ToolHand& hand) {
   if (const auto point = hand.context.pick(hand.at_px))
@@ -22,7 +52,7 @@ void show_points(const ToolState& state, const Camera& camera, ToolOverlay* out)
 void click_ground(ToolHand& hand) {
   std::vector<glm::vec3>& points = hand.state.points_world;
   if (hand.state.right()) return points.clear();
-  add_point(hand);
+  if (const auto point = solid_point(hand)) points.push_back(*point);
   if (points.size() < 3) return;
   // Of unit sides: how small the scene's numbers are does not matter.
   glm::vec3 up = glm::cross(glm::normalize(points[1] - points[0]), glm::normalize(points[2] - points[0]));

@@ -41,16 +41,7 @@ void key_group(UiContext& ui, const char* group) {
 void pointer_help(UiContext& ui) {
   heading(ui, "Pointer");
   ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + ImGui::GetColumnWidth() - 24);
-  muted_text(
-      ui,
-      "Middle drag turns with any tool, with Shift it shifts. Double-click sets the point to turn around "
-      "(Navigate). The wheel zooms; right after a click, and with Shift at any time, it steps through larger "
-      "and smaller parts of what was clicked last; while a flight key is held, it changes the speed. A right "
-      "click on the dot of a click (left: of a right one) takes that click away. While "
-      "other meanings of a click are shown, 1, 2 and 3 choose one, and no tool, until Esc, 4 (box) or a "
-      "tool's button. With tools that click, draw or select, Shift adds, Ctrl removes and Alt intersects. "
-      "Alt+wheel changes the brush. Tab and Shift+Tab mark buttons and fields, Enter presses what is "
-      "marked.");
+  muted_text(ui, pointer_words());
   ImGui::PopTextWrapPos();
 }
 
@@ -63,7 +54,18 @@ void scroll_by_keys() {
   for (const auto& [code, step] : steps)
     if (ImGui::IsKeyPressed(code)) ImGui::SetScrollY(std::clamp(ImGui::GetScrollY() + step, 0.0f, all));
 }
+
 }  // namespace
+
+std::string pointer_words() {
+  return std::string("Click: ") + Tool::kClick.sentence + " Navigate: " + Tool::kNavigate.sentence +
+         " A middle drag turns with any tool, with Shift it shifts. Shift+wheel: sizes of the last click at "
+         "any "
+         "time; while a flight key is held, the wheel changes the speed. While other meanings of a click are "
+         "shown, 1, 2 and 3 choose one, until Esc. Where one clicks, draws or selects, Shift adds, Ctrl "
+         "removes, "
+         "Alt intersects. Alt+wheel: the brush. Tab marks buttons and fields, Enter presses them.";
+}
 
 float keys_width() {
   constexpr float kColumnGap = 10;

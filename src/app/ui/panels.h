@@ -24,7 +24,8 @@ std::string status_text(const Studio& studio);  // what runs, at its left end
 void start_page(UiContext& ui, const UiRect& area);
 
 void help_page(UiContext& ui);
-float keys_width();  // of the keys on that page, beside which it says what they do; points
+std::string pointer_words();  // what the pointer does, for the page of keys
+float keys_width();           // of the keys on that page, beside which it says what they do; points
 void settings_page(UiContext& ui);
 void export_dialog(UiContext& ui);
 // What is exported as it will stand in the file, with handles; a picture in the dialog, of that size.

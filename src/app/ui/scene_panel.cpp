@@ -21,14 +21,16 @@ void up_buttons(UiContext& ui) {
   };
   const Axis axes[] = {{"+X", {1, 0, 0}},  {"-X", {-1, 0, 0}}, {"+Y", {0, 1, 0}},
                        {"-Y", {0, -1, 0}}, {"+Z", {0, 0, 1}},  {"-Z", {0, 0, -1}}};
+  const AxisSigns of_file = axes_of_file(ui.studio);
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted("Up");
   for (const Axis& axis : axes) {
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {5, 4});
     axis.name == axes[0].name ? ImGui::SameLine(0, 74) : same_line_if_fits(axis.name, 2);
-    const bool on = glm::dot(ui.studio.document().up_world, axis.direction) > 0.9999f;
+    const glm::vec3 direction_world = of_file.position(axis.direction);
+    const bool on = glm::dot(ui.studio.document().up_world, direction_world) > 0.9999f;
     if (button(ui, axis.name, "Turns the scene so that this axis points up", {}, on))
-      ui.ask(SetUp{axis.direction});
+      ui.ask(SetUp{direction_world});
     ImGui::PopStyleVar();
   }
 }

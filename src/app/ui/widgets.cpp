@@ -115,6 +115,23 @@ void tooltip(const std::string& text) {
   ImGui::EndTooltip();
 }
 
+void tooltip_within(const UiRect& area, const std::string& text) {
+  constexpr float kBesidePointer = 14;
+  const ImVec2 padding = ImGui::GetStyle().WindowPadding, words = ImGui::CalcTextSize(text.c_str()),
+               pointer = ImGui::GetMousePos();
+  const glm::vec2 size(words.x + 2 * padding.x, words.y + 2 * padding.y);
+  const glm::vec2 at =
+      glm::max(area.min, glm::min(glm::vec2(pointer.x, pointer.y) + kBesidePointer, area.max - size));
+  ImGui::SetNextWindowPos({at.x, at.y});
+  ImGui::SetTooltip("%s", text.c_str());
+}
+
+AxisSigns axes_of_file(const Studio& studio) {
+  const OpenedScene* opened = studio.scene();
+  const bool ours = !opened || opened->scene->taken_axes == SpzAxes::kPly;
+  return ours ? AxisSigns() : opened->scene->format.axes;
+}
+
 void progress_bar(UiContext& ui, double fraction, float width) {
   const ImVec2 at = ImGui::GetCursorScreenPos();
   ImDrawList& list = *ImGui::GetWindowDrawList();

@@ -73,10 +73,15 @@ void same_line_if_fits(const char* label, float spacing);  // for a button with 
 void progress_bar(UiContext& ui, double fraction, float width);  // thin, in the middle of a line
 
 void tooltip(const std::string& text);  // of the last item
+// At the pointer, inside of a part of the screen.
+void tooltip_within(const UiRect& area, const std::string& text);
 void muted_text(UiContext& ui, const std::string& text);
 void wrapped_muted(UiContext& ui, const std::string& text);
 void wrapped_warning(UiContext& ui, const std::string& text);
 bool section(UiContext& ui, const char* title, bool open = true);
+
+// The axes that the scene's file has, which are what people know: those of a .spz or .glb are not ours.
+AxisSigns axes_of_file(const Studio& studio);
 
 std::string tip_of(Action action);  // "Undo (Ctrl+Z)"
 ImVec4 colour_of(const Rgb8& c);

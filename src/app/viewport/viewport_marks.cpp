@@ -30,12 +30,15 @@ struct Axis {
 };
 
 // The six ends of the axes, the farthest first.
-std::array<Axis, 6> axes_seen_by(const Camera& camera) {
+std::array<Axis, 6> axes_seen_by(const Camera& camera, const AxisSigns& of_file) {
   const auto [red, green, blue] = kAxisInks;
   std::array<Axis, 6> axes = {Axis{"X", {1, 0, 0}, red, {}},     Axis{"Y", {0, 1, 0}, green, {}},
                               Axis{"Z", {0, 0, 1}, blue, {}},    Axis{"-X", {-1, 0, 0}, red, {}},
                               Axis{"-Y", {0, -1, 0}, green, {}}, Axis{"-Z", {0, 0, -1}, blue, {}}};
-  for (Axis& axis : axes) axis.seen = camera.camera_from_world_rotation * axis.direction_world;
+  for (Axis& axis : axes) {
+    axis.direction_world = of_file.position(axis.direction_world);
+    axis.seen = camera.camera_from_world_rotation * axis.direction_world;
+  }
   std::ranges::stable_sort(axes, [](const Axis& a, const Axis& b) { return a.seen.z > b.seen.z; });
   return axes;
 }
@@ -127,7 +130,7 @@ UiRect axes_gizmo(UiContext& ui, const UiRect& area) {
   const ImVec2 middle = {area.max.x - kMargin - kRadius - kBall, area.min.y + kMargin + kRadius + kBall};
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const Camera camera = ui.studio.viewport().pane_camera();
-  for (const Axis& axis : axes_seen_by(camera)) {
+  for (const Axis& axis : axes_seen_by(camera, axes_of_file(ui.studio))) {
     const ImVec2 at = {middle.x + kRadius * axis.seen.x, middle.y + kRadius * axis.seen.y};
     const bool positive = axis.name[0] != '-';
     ImGui::SetCursorScreenPos({at.x - kBall, at.y - kBall});

@@ -164,7 +164,7 @@ void draw_strokes(const UiContext& ui, const UiRect& area) {
     draw_click(list, place(mark.at_px), mark.object, mark.from_here ? opacity : kFromElsewhere * opacity);
   if (const StrokeMark* mark = ui.studio.clicks().pointed_mark(); mark && pointed_at(ui, area)) {
     draw_pointed_click(list, place(mark->at_px), mark->object);
-    ImGui::SetTooltip("%s click: takes this click away", mark->object ? "Right" : "Left");
+    tooltip_within(area, std::string(mark->object ? "Right" : "Left") + " click: takes this click away");
   }
 }
 

@@ -13,26 +13,6 @@
 
 namespace splatcut {
 
-namespace {
-
-// Whether the last that was done is a stroke.
-bool is_of_stroke(const History& history) {
-  const std::string& title = history.entries()[history.cursor()].title;
-  return !history.left() && history.can_undo() &&
-         (title.starts_with("Click") || title.starts_with("Scribble"));
-}
-
-// What the wheel can do about a click that took the wrong size.
-std::string wheel_hint(const CutRequest& request, const CutResult& result) {
-  if (result.sizes < 2 || first_stroke(request.strokes) == last_stroke(request.strokes))
-    return unsure(result) ? ". Not all of it? Turn the wheel for another size" : "";
-  if (result.size == 0) return ". Too little? Turn the wheel";
-  return result.size + 1 == result.sizes ? ". Too much? Turn the wheel"
-                                         : ". Too much or too little? Turn the wheel";
-}
-
-}  // namespace
-
 const CutRun* CutJobs::known_run(ObjectId object, const std::string& key) const {
   const auto found = std::ranges::find_if(
       known_, [&](const Known& known) { return known.object == object && known.run.key == key; });
@@ -161,7 +141,7 @@ void CutJobs::start(const ObjectItem& object, bool anew) {
   CutRun run;
   run.running = true;
   Order order = order_for(object);
-  order.before = labels_before_stroke(object.id);
+  note_before(&order);
   order.number = ++started_;
   run.key = order.key;
   if (before) {  // shown until there is something newer
@@ -371,7 +351,8 @@ void CutJobs::finish(const Order& order, CutRun run, const Flags& labels) {
   const std::string box =
       *before == *labels_now() ? "" : added_by_box(ws_.history, order.object, ws_.context());
   const std::string shared = box + shared_with(ws_.document(), order.object, labels_of_item);
-  const std::string hint = ws_.tools.scale_armed() ? wheel_hint(order.request, *result) : "";
+  const std::string hint =
+      ws_.tools.scale_armed() ? wheel_hint(order.request, *result, *before, *labels_now()) : "";
   ws_.say(doubt.empty() ? Message::Kind::kDone : Message::Kind::kInfo,
           fmt::format("{}: {}{}{}", name, changed, shared, doubt.empty() ? hint : ". But " + doubt));
 }
@@ -390,7 +371,7 @@ std::string CutJobs::doubt_to_say(ObjectId object, const CutRun& run) {
 void CutJobs::show_views(const Order& order, std::vector<ViewCard> cards) {
   CutRun* run = order.scene == ws_.scene ? known_run(order.object, order.key) : nullptr;
   if (!run) return;
-  take_cards(run, order.before, std::move(cards));
+  take_cards(run, order, run->result->labels, std::move(cards));
   const ObjectItem* object = ws_.document().find(order.object);
   std::string& said = sides_said_[order.object];
   if (!add_doubt_of_sides(run)) return said.clear();

@@ -44,6 +44,7 @@ class CutJobs {
   // nothing else to do. What was asked for last is kept until the document asks for it, which then waits for
   // no cut. Called once a frame at most.
   void cut_ahead(std::span<const int> size_steps);
+  void looked_from(const Camera& camera);  // the person has: sides that it shows are looked at
   void pause();  // stops the running cut; update() starts it again once no scene is being opened
   // Lets update() start a cut again that was given up.
   void want_again(const ObjectItem& object) { given_up_.erase(ws_.history.keys(object).cut); }
@@ -64,6 +65,7 @@ class CutJobs {
     Rgb8 colour{};
     bool heat = false;         // the likelihood is shown
     Flags before{};            // labels before the last stroke, see CutRun::views_before
+    std::string key_before{};  // key of the cut that gave them
     std::uint64_t number = 0;  // the same key may be cut again
   };
 
@@ -86,9 +88,10 @@ class CutJobs {
   void request_likelihood();
   void recall();
   void renew_views();
-  Flags labels_before_stroke(ObjectId object) const;
+  void note_before(Order* order) const;
   static std::vector<ViewCard> cards_of(const Order& order, const CutResult& result, const Job& job);
-  void take_cards(CutRun* run, const Flags& before, std::vector<ViewCard> cards);
+  void take_cards(CutRun* run, const Order& order, const std::vector<std::uint8_t>& labels,
+                  std::vector<ViewCard> cards);
 
   Workspace& ws_;
   std::optional<Known> running_;

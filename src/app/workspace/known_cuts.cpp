@@ -15,10 +15,10 @@ void CutJobs::recall() {
     return;
   if (known_run(object->id, object->cut_key) || is_stale(*object, ws_.history.keys(*object).cut)) return;
   Order order = order_for(*object);
-  order.before = labels_before_stroke(object->id);
+  note_before(&order);
   const auto know = [this, order](CutRun run, std::vector<ViewCard> cards) {
     if (order.scene != ws_.scene || known_run(order.object, order.key)) return;
-    take_cards(&run, order.before, std::move(cards));
+    take_cards(&run, order, run.result ? run.result->labels : std::vector<std::uint8_t>(), std::move(cards));
     add_doubt_of_sides(&run);
     keep({order.object, std::move(run)});
     ++ws_.view_serial;
@@ -38,10 +38,13 @@ void CutJobs::recall() {
                    });
 }
 
-// Null: see before_last_stroke().
-Flags CutJobs::labels_before_stroke(ObjectId object) const {
-  const Document* before = before_last_stroke(ws_.history, object);
-  return before ? make_flags(labels_of(*before, *before->find(object), ws_.gaussians())) : nullptr;
+// Nothing where there is none, see before_last_stroke().
+void CutJobs::note_before(Order* order) const {
+  const Document* before = before_last_stroke(ws_.history, order->object);
+  if (!before) return;
+  const ObjectItem& item = *before->find(order->object);
+  order->before = make_flags(labels_of(*before, item, ws_.gaussians()));
+  order->key_before = item.cut_key;
 }
 
 std::vector<ViewCard> CutJobs::cards_of(const Order& order, const CutResult& result, const Job& job) {
@@ -49,9 +52,13 @@ std::vector<ViewCard> CutJobs::cards_of(const Order& order, const CutResult& res
                        job);
 }
 
-void CutJobs::take_cards(CutRun* run, const Flags& before, std::vector<ViewCard> cards) {
+void CutJobs::take_cards(CutRun* run, const Order& order, const std::vector<std::uint8_t>& labels,
+                         std::vector<ViewCard> cards) {
+  if (const CutRun* before = known_run(order.object, order.key_before))
+    keep_doubts(before->views, labels, &cards);
+  if (run->views_drawn) keep_doubts(run->views, labels, &cards);  // a hand changed it, which is no stroke
   run->views = in_places_of(run->views, std::move(cards));
-  run->views_before = before;
+  run->views_before = order.before;
   run->views_drawn = true;
   for (ViewCard& card : run->views) card.serial = next_card_serial_++;
 }
@@ -69,7 +76,7 @@ void CutJobs::renew_views() {
   const bool as_cut = *now == run->result->labels;
   Order order = order_for(*object);
   if (std::exchange(order.key, run->key) == run->key)  // else the last stroke was not cut
-    order.before = labels_before_stroke(object->id);
+    note_before(&order);
   const auto same = [](const Flags& a, const Flags& b) { return a == b || (a && b && *a == *b); };
   if (run->views_drawn && (run->views_labels ? same(run->views_labels, now) : as_cut) &&
       same(run->views_before, order.before)) {
@@ -79,7 +86,7 @@ void CutJobs::renew_views() {
   const auto show = [this, order, now, as_cut](std::vector<ViewCard> cards) {
     CutRun* shown = order.scene == ws_.scene ? known_run(order.object, order.key) : nullptr;
     if (!shown) return;
-    take_cards(shown, order.before, std::move(cards));
+    take_cards(shown, order, *now, std::move(cards));
     shown->views_labels = now;
     shown->doubts = as_cut ? doubts_of(*shown->result) : std::vector<std::string>();
     add_doubt_of_sides(shown);
@@ -93,6 +100,13 @@ void CutJobs::renew_views() {
         std::vector<ViewCard> cards = cards_of(order, changed, job);
         if (!job.cancelled()) ws_.tasks.post([show, cards = std::move(cards)] { show(cards); });
       });
+}
+
+void CutJobs::looked_from(const Camera& camera) {
+  const ObjectItem* object = ws_.document().active_object();
+  CutRun* run = object ? known_run(object->id, object->cut_key) : nullptr;
+  for (ViewCard& card : run ? std::span(run->views) : std::span<ViewCard>())
+    card.looked_at = card.looked_at || looks_at(camera, card, *ws_.scene->cloud);
 }
 
 // Of the active object's labels, for the heat map: kept by the session from the last cut, or computed again.

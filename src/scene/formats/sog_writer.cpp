@@ -12,6 +12,7 @@
 #include "scene/formats/losses.h"
 #include "scene/formats/said_up.h"
 #include "scene/formats/sog.h"
+#include "scene/packing/packed_size.h"
 #include "scene/packing/palette.h"
 #include "scene/packing/webp.h"
 #include "scene/packing/zip_file.h"
@@ -175,11 +176,6 @@ json add_all(const SogInput& in, bool antialiased, SogPictures* pictures) {
   return meta;
 }
 
-ZipEntry text_entry(const std::string& name, const std::string& text) {
-  const auto bytes = std::as_bytes(std::span(text));
-  return {name, {bytes.begin(), bytes.end()}};
-}
-
 Losses sog_losses(const Scene& scene, std::size_t gaussians) {
   Losses losses;
   losses.add("positions are rounded to 16 bits, rotations and opacities to 8, whose order changes");
@@ -206,19 +202,26 @@ std::string write_sog(AtomicFile& out, const Scene& scene, std::span<const std::
   tbb::parallel_for(std::size_t{0}, entries.size(), [&](std::size_t i) {
     entries[i] = {pictures.names[i], write_webp(pictures.images[i])};
   });
-  entries.push_back(text_entry("meta.json", meta.dump()));
+  const std::string text = meta.dump();
+  const auto bytes = std::as_bytes(std::span(text));
+  entries.push_back({"meta.json", {bytes.begin(), bytes.end()}});
   out.write(zip_of(entries));
   return sog_losses(scene, gaussians.size()).sentence();
 }
 
 FormatPlan plan_sog(const Scene& scene, std::span<const std::uint32_t> gaussians, bool) {
-  constexpr std::size_t kBytesPerGaussian = 14, kCodebooks = 16000;  // as real scenes come out
-  const std::size_t sets = std::min(gaussians.size(), kMostPalette);
-  FormatPlan plan;
-  plan.bytes = gaussians.size() * kBytesPerGaussian + kCodebooks + sets * scene.cloud.sh_stride() * 3 / 4;
-  plan.about = true;
-  plan.kept = "What the scene says of Gaussians, quantised and packed for the web.";
-  plan.lost = sog_losses(scene, gaussians.size()).in_full();
+  const SogInput sample{scene.cloud, spread_runs(gaussians)};
+  SogPictures pictures;
+  FormatPlan plan{.about = true,
+                  .kept = "What the scene says of Gaussians, quantised and packed for the web.",
+                  .lost = sog_losses(scene, gaussians.size()).in_full()};
+  if (gaussians.empty()) return plan;
+  plan.bytes = add_all(sample, false, &pictures).dump().size();
+  for (std::size_t i = 0; i < pictures.names.size(); ++i) {
+    const bool of_sets = pictures.names[i].starts_with("shN_centroids");
+    plan.bytes += write_webp(pictures.images[i]).size() *
+                  std::min(gaussians.size(), of_sets ? kMostPalette : gaussians.size()) / sample.size();
+  }
   return plan;
 }
 

@@ -316,15 +316,6 @@ bool is_spz(const MappedFile& file) {
   return begins_with(file, "NGSP") || begins_with(file, "\x1f\x8b\x08");
 }
 
-FormatPlan plan_spz(const Scene& scene, std::span<const std::uint32_t> gaussians, bool) {
-  FormatPlan plan;
-  plan.bytes = gaussians.size() * (20 + scene.cloud.sh_stride()) * 3 / 4 + 64;
-  plan.about = true;
-  plan.kept = "What the scene says of Gaussians, quantised and packed.";
-  plan.lost = spz_losses(scene, gaussians).in_full();
-  return plan;
-}
-
 }  // namespace
 
 SpzRows read_spz_rows(const MappedFile& file, const Job& job) {

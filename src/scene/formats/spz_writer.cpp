@@ -15,6 +15,7 @@
 #include "scene/cloud/quantise.h"
 #include "scene/formats/said_up.h"
 #include "scene/formats/spz_layout.h"
+#include "scene/packing/packed_size.h"
 
 namespace splatcut {
 
@@ -227,6 +228,17 @@ std::string write_spz(AtomicFile& out, const Scene& scene, std::span<const std::
   else
     write_version_3(out, header, packed, options.up);
   return spz_losses(scene, gaussians).sentence();
+}
+
+FormatPlan plan_spz(const Scene& scene, std::span<const std::uint32_t> gaussians, bool) {
+  const std::vector<std::uint32_t> sample = spread_runs(gaussians);
+  std::size_t packed = 0;
+  for (const Buffer& attribute : attributes(scene.cloud, sample, kUsualFractionalBits))
+    packed += deflated_bytes(std::as_bytes(std::span(attribute)));
+  return {.bytes = packed * gaussians.size() / std::max<std::size_t>(1, sample.size()) + 64,
+          .about = true,
+          .kept = "What the scene says of Gaussians, quantised and packed.",
+          .lost = spz_losses(scene, gaussians).in_full()};
 }
 
 }  // namespace splatcut

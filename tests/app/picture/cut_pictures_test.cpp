@@ -210,3 +210,49 @@ TEST_CASE("thumbnails: sides that no picture of the capture shows are in doubt, 
     CHECK((marked > 0) == marks);
   }
 }
+
+TEST_CASE("thumbnails: half a thing stays in doubt when a whole one joins, until looked at or made whole") {
+  Hands hands = hands_on_sample(false);
+  const OpenedScene& scene = *hands.studio().scene();
+  Session session({.cloud = scene.cloud, .blocks = scene.blocks});
+  CutRequest request;
+  request.strokes = {{scene.views().cameras[0], {click(kOnApple, SeedLabel::kObject)}, {}}};
+  CutResult result = session.cut(request, {});
+  const auto cards = [&](const std::vector<std::uint8_t>& labels) {
+    return picture_cards(session, {request, {}, with_labels(session, result, labels, {})}, {});
+  };
+  const auto through = [](const std::vector<ViewCard>& all) {
+    return std::ranges::count(all, "here the border runs through a surface", &ViewCard::doubt);
+  };
+  const std::vector<std::uint8_t> apple = sample_truth(*scene.scene, kApple),
+                                  mug = sample_truth(*scene.scene, kMug);
+  std::vector<std::uint8_t> half = apple, joined = apple;
+  for (std::size_t g = 0; g < half.size(); ++g) {
+    half[g] = half[g] && scene.cloud->position[g].z > -0.48f;
+    joined[g] = half[g] || mug[g];
+  }
+  std::vector<ViewCard> before = cards(half);
+  REQUIRE(through(before) > 0);
+  std::vector<ViewCard> now = cards(joined);
+  const auto anew = through(now);
+  REQUIRE(anew < through(before));  // by itself it would be forgotten
+  keep_doubts(before, joined, &now);
+  CHECK(through(now) > anew);
+  std::vector<ViewCard> whole = cards(apple);
+  keep_doubts(before, apple, &whole);
+  CHECK(through(whole) == 0);
+  // It is looked at from there, not from beside, nor where something else fills the picture.
+  for (ViewCard& card : before) {
+    if (!card.open) continue;
+    CHECK(looks_at(card.camera, card, *scene.cloud));
+    Camera other = card.camera;
+    other.cx_px += 2 * static_cast<float>(other.width_px);
+    CHECK_FALSE(looks_at(other, card, *scene.cloud));
+    for (const ViewCard& beside : before)
+      if (&beside != &card) CHECK_FALSE(looks_at(beside.camera, card, *scene.cloud));
+    card.looked_at = true;
+  }
+  now = cards(joined);
+  keep_doubts(before, joined, &now);
+  CHECK(through(now) == anew);
+}

@@ -40,6 +40,23 @@ struct TwoObjects : Hands {
 
 }  // namespace
 
+TEST_CASE("chosen object: its tint lies over those of others that hold the same Gaussians") {
+  TwoObjects hands;
+  hands.studio().apply(DuplicateObject{1});
+  REQUIRE(hands.app.settle());
+  REQUIRE(hands.studio().document().objects.size() == 3);
+  for (const std::size_t number : {0, 1, 2}) {
+    CAPTURE(number);
+    const ObjectId id = hands.studio().document().objects[number].id;
+    hands.choose(id);
+    const auto labels = hands.studio().labels(id);
+    const Flags owner = hands.studio().viewport().style(0).owner;
+    REQUIRE(owner);
+    for (std::size_t g = 0; g < labels.size(); ++g)
+      if (labels[g]) REQUIRE((*owner)[g] == number + 1);
+  }
+}
+
 TEST_CASE("chosen object: F frames it, whatever was offered for another one, alone or not") {
   TwoObjects hands;
   Studio& studio = hands.studio();

@@ -173,3 +173,21 @@ TEST_CASE("marks: a cross says what a press does, and no outline beside it") {
   hands.app.key('5');  // another tool
   CHECK(!hands.studio().clicks().pointed_mark());
 }
+
+TEST_CASE("marks: what is said at a dot beside the panel stays inside of the picture") {
+  Hands hands;
+  const UiRect view = hands.app->interface().viewport();
+  const glm::vec2 at(view.max.x - 20, view.min.y + 0.7f * view.size().y);
+  hands.app.click(at);
+  REQUIRE(hands.app.settle());
+  hands.app.move(view.min + 60.0f);
+  hands.app.frames(2);
+  hands.app.move(at);
+  REQUIRE(hands.app.settle());
+  REQUIRE(hands.studio().clicks().pointed_mark());
+  hands.app.frames(3);
+  const UiRect told = hands.app.window("##Tooltip");
+  REQUIRE(told.size().x > 50);
+  CHECK(told.max.x <= view.max.x);
+  CHECK(told.max.y <= view.max.y);
+}

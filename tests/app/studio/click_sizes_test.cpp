@@ -325,3 +325,32 @@ TEST_CASE("clicks: the step that the slider was pointed at is none of an object 
   artist.app.frames(1);  // an undo while the pointer rests on the slider
   CHECK_FALSE(artist.app.interface_state().size_pointed);
 }
+
+TEST_CASE("clicks: what is said of the wheel fits what the click changed") {
+  Artist artist(on_sample("mug", kOnMug));
+  artist.click_on_it();
+  artist.app.key(key::kEscape);
+  const glm::vec2 middle = artist.screen_of(kOnMug);
+  artist.click(middle + glm::vec2(14, -4), PointerButton::kRight);
+  std::size_t little = 0, much = 0, said = artist.studio().messages().size();
+  for (const glm::vec2& away : {glm::vec2(-8, -8), {-30, 10}, {6, -25}, {-11, 0}, {5, 9}, {30, 40}}) {
+    const Labels before = artist.labels();
+    const auto is_part = artist.studio().viewport().pick(middle + away - artist.on_screen({0, 0}));
+    REQUIRE(is_part);
+    const bool rest = before[static_cast<std::size_t>(is_part->gaussian)] != 0;
+    artist.click(middle + away, rest ? PointerButton::kRight : PointerButton::kLeft);
+    const Labels after = artist.labels();
+    std::size_t changed = 0;
+    for (std::size_t g = 0; g < after.size(); ++g) changed += before[g] != after[g];
+    const bool is_little = 50 * changed < count_flags(after);
+    for (; said < artist.studio().messages().size(); ++said) {
+      const std::string& text = artist.studio().messages()[said].text;
+      if (text.find(" removed in ") == std::string::npos) continue;
+      CAPTURE(text);
+      (is_little ? little : much) += 1;
+      if (is_little) CHECK(text.find("Too much") == std::string::npos);
+    }
+  }
+  CHECK(little >= 1);
+  MESSAGE(little, " clicks changed little, ", much, " much");
+}

@@ -126,3 +126,58 @@ TEST_CASE("sides: in whatever steps the wheel came to a size, the pictures show 
   CHECK(after(key::kPageUp) == own);
   CHECK(of_stroke(hands.app) == 0);
 }
+
+TEST_CASE(
+    "sides: what nobody looked at stays in doubt after the next stroke, until it is looked at or back") {
+  constexpr const char* kBefore =
+      "something here was taken away before, unseen from where you clicked or drew";
+  Hands hands = hands_on_sample();
+  const auto still = [&] { return std::ranges::count(cards(hands.app), kBefore, &ViewCard::doubt); };
+  hands.app.key(key::kPageDown);  // a part of the apple's front: the back goes
+  REQUIRE(hands.app.settle());
+  REQUIRE(of_stroke(hands.app) >= 3);
+  click_on(hands, kOnMug, PointerButton::kLeft);
+  const auto open = still();
+  CHECK(open >= 1);
+  click_on(hands, kOnOrange, PointerButton::kLeft);
+  CHECK(still() >= 1);
+  SUBCASE("a hand changes something else") {
+    const Camera camera = hands.studio().viewport().pane_camera();
+    const glm::vec2 at = hands.in_viewport(hands.app.screen_of({200, 500}));
+    hands.studio().apply(
+        SelectRegion{camera, rectangle_region(at - 10.0f, at + 10.0f, camera.width_px, camera.height_px)});
+    REQUIRE(hands.app.settle());
+    CHECK(still() >= 1);
+  }
+  SUBCASE("undo and redo") {
+    for (const Command& command : {Command(Undo{}), Command(Redo{})}) {
+      hands.studio().apply(command);
+      REQUIRE(hands.app.settle());
+      CHECK(still() >= 1);
+    }
+  }
+  SUBCASE("somebody looks at each side") {
+    const Camera front = hands.studio().viewport().pane_camera();
+    const std::vector<ViewCard> sides = cards(hands.app);
+    for (const ViewCard& side : sides) {
+      hands.studio().apply(GoToCamera{side.camera});
+      REQUIRE(hands.app.settle());
+    }
+    CHECK(still() >= 1);  // it has its mark while it is looked at
+    hands.studio().apply(GoToCamera{front});
+    REQUIRE(hands.app.settle());
+    click_on(hands, kOnMug, PointerButton::kRight);
+    CHECK(still() == 0);
+  }
+  SUBCASE("all of the apple is back") {
+    const GaussianCloud& cloud = *hands.studio().scene()->cloud;
+    const auto apple = sample_truth(*hands.studio().scene()->scene, kApple);
+    glm::vec3 low(1e9f), high(-1e9f);
+    for (std::size_t g = 0; g < apple.size(); ++g)
+      if (apple[g]) low = glm::min(low, cloud.position[g]), high = glm::max(high, cloud.position[g]);
+    const Volume volume{false, 0.5f * (low + high), 0.5f * (high - low)};
+    hands.studio().apply(SelectVolume{volume});
+    REQUIRE(hands.app.settle());
+    CHECK(still() == 0);
+  }
+}

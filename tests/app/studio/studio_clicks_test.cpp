@@ -198,6 +198,41 @@ TEST_CASE("clicks: hovering outlines what the click then changes, corrections in
   }
 }
 
+TEST_CASE("clicks: beside the dot of the last click the outline is what a click there changes") {
+  Artist artist(on_sample("mug", kOnMug));
+  artist.click_on_it();
+  const auto turn = [&] {
+    artist.app->handle(WheelTurned{-1, {}});
+    artist.app.frames(1);
+    REQUIRE(artist.app.settle());
+  };
+  turn();  // no other meaning is offered then
+  const Clicks& clicks = artist.studio().clicks();
+  const auto outlined = [&] { return artist.studio().viewport().style(0).highlight; };
+  REQUIRE(clicks.sizes());  // of the wheel, on the dot
+  CHECK_FALSE(outlined());
+  const Labels before = artist.labels();
+  const glm::vec2 at = artist.screen_of(kOnMug) + glm::vec2(10, 0);
+  artist.app.move(at);
+  turn();  // the wheel takes the last click's sizes there, too
+  CHECK(artist.labels() != before);
+  artist.app.key('Z', {.ctrl = true});
+  artist.app->frame(3);
+  REQUIRE(artist.app.settle());
+  REQUIRE(artist.labels() == before);
+  CHECK_FALSE(clicks.sizes());
+  REQUIRE(outlined());
+  const Labels promised = *outlined();
+  artist.click(at, PointerButton::kRight);
+  Labels changed = artist.labels();
+  for (std::size_t g = 0; g < changed.size(); ++g) changed[g] = changed[g] != before[g];
+  MESSAGE("outlined ", count_flags(promised), ", changed ", count_flags(changed));
+  CHECK(iou_of(promised, changed) > 0.6);
+  artist.app.key('Z', {.ctrl = true});
+  REQUIRE(artist.app.settle());
+  CHECK(artist.labels() == before);
+}
+
 TEST_CASE("clicks: what the middle of a still picture shows is prepared before the first click") {
   HeadlessApp app(kArtistWidth, kArtistHeight, 1, working_ahead());
   Studio& studio = app.studio();

@@ -282,3 +282,31 @@ TEST_CASE(
   REQUIRE(studio.scene()->files.size() == 1);
   CHECK(studio.scene()->files.front().path == kSample);
 }
+
+TEST_CASE("formats: the axis that points up in a file is shown as it was written") {
+  const Folder folder;
+  HeadlessApp app(1100, 760);
+  app.open(kSmallSample);
+  REQUIRE(app.settle());
+  for (const char* name : {"up.spz", "up.ply", "up.glb"}) {
+    CAPTURE(std::string(name));
+    ExportRequest request;
+    request.path = folder / name;
+    request.format = *find_format(request.path);
+    request.placement.up = ExportUp::kPlusZ;
+    app.open(kSmallSample);
+    REQUIRE(app.settle());
+    app.studio().apply(EditSelection{SelectionEdit::kAll});
+    app.studio().apply(Export{request});
+    REQUIRE(app.settle());
+    REQUIRE(fs::exists(request.path));
+    HeadlessApp again(1100, 760);
+    again.open(request.path);
+    REQUIRE(again.settle());
+    const glm::vec3 up = again.studio().document().up_world;
+    again.press_item("side/scroll", {"View"});
+    again.press_item("side/scroll", {"+Z"});  // is so already
+    REQUIRE(again.settle());
+    CHECK(glm::dot(again.studio().document().up_world, up) > 0.999f);
+  }
+}

@@ -58,6 +58,40 @@ TEST_CASE("hands: up by three points draws marks, and computes no object again")
   CHECK(hands.studio().labels(hands.studio().document().active) == before);
 }
 
+TEST_CASE("hands: up by three points is the ground's, also where a point is on a Gaussian alone in the air") {
+  const ScratchFolder folder("ground");
+  Scene scene;
+  GaussianCloud& cloud = scene.cloud;
+  constexpr std::size_t kSide = 90;
+  cloud.resize(kSide * kSide + 1, 0);
+  for (std::size_t g = 0; g < cloud.size(); ++g) {
+    const auto across = static_cast<float>(g % kSide), along = static_cast<float>(g / kSide);
+    cloud.position[g] = {across / 22 - 2, 0.5f, along / 22 - 2};
+    cloud.scale[g] = {0.04f, 0.002f, 0.04f};
+    cloud.opacity[g] = 0.95f;
+    cloud.file_row[g] = static_cast<std::uint32_t>(g);
+  }
+  const glm::vec3 alone(0.2f, -0.35f, 0);
+  cloud.position.back() = alone;
+  cloud.scale.back() = glm::vec3(0.01f);
+  scene.file_rows = cloud.size();
+  save_scene(folder / "ground.ply", scene, {}, SceneFormat::kPly);
+  Hands hands(false, with_kept_scenes(), folder / "ground.ply");
+  hands.studio().apply(SetUp{{0, -1, 0}});
+  hands.studio().apply(GoToCamera{look_at({0, -1.4f, -2}, {0, 0.5f, 0}, {0, -1, 0}, 0.9f, 640, 480)});
+  REQUIRE(hands.app.settle());
+  REQUIRE(hands.under(hands.seen_at(alone)).y < 0);
+  hands.app.key('0');
+  for (const glm::vec3& at : {glm::vec3(-0.7f, 0.5f, -0.4f), {-0.5f, 0.5f, 0.6f}, alone})
+    hands.app.click(hands.seen_at(at));
+  REQUIRE(hands.app.settle());
+  const glm::vec3 up = hands.studio().document().up_world;
+  CAPTURE(up.x);
+  CAPTURE(up.z);
+  CHECK(hands.said() == "Up direction set");
+  CHECK(glm::dot(up, glm::vec3(0, -1, 0)) > 0.999f);
+}
+
 TEST_CASE("hands: Shift adds, Ctrl removes, Alt intersects, with clicks as with regions") {
   Hands hands = hands_on_sample();
   const std::vector<std::uint8_t> apple = hands.studio().labels(hands.studio().document().active);

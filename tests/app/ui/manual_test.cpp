@@ -7,6 +7,8 @@
 #include <string>
 
 #include "app/tools/actions.h"
+#include "app/tools/tool.h"
+#include "app/ui/panels.h"
 #include "places.h"
 #include "scene/formats/scene_formats.h"
 
@@ -57,4 +59,17 @@ TEST_CASE("manual: README names the endings that the start page names") {
   CHECK(endings.find(".gltf") != std::string::npos);
   CHECK(endings.find("meta.json") == std::string::npos);
   CHECK(text.find("opens a scene: " + endings + "\n") != std::string::npos);
+}
+
+TEST_CASE("manual: the page of keys says of clicks and drags what tooltips and the manual say") {
+  const std::string page = pointer_words();
+  for (const Tool* tool : {&Tool::kClick, &Tool::kNavigate}) CHECK(page.find(tool->sentence) != page.npos);
+  std::ifstream in(project_folder() + "/docs/manual.md");
+  const std::string manual{std::istreambuf_iterator<char>(in), {}};
+  for (const char* said : {"left click", "right click", "left drag turns", "right drag shifts",
+                           "middle drag turns", "click on the dot"}) {
+    CAPTURE(std::string(said));
+    CHECK(page.find(said + 1) != page.npos);  // its first letter may be large
+    CHECK(manual.find(said + 1) != manual.npos);
+  }
 }
