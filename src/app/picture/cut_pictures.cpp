@@ -104,7 +104,7 @@ bool doubts_border(const Drawer& drawer, const RasterOutput& drawn, const Mask& 
     for (const glm::ivec2& p : *pixels)
       if (shown.at(p.x, p.y) != kNoGroup) gaussians->push_back(shown.at(p.x, p.y));
   card->doubt = kThroughSurface;
-  card->open = std::make_shared<const OpenDoubt>(std::move(doubt));
+  card->open.push_back(std::make_shared<const OpenDoubt>(std::move(doubt)));
   return true;
 }
 
@@ -161,7 +161,7 @@ std::optional<StrokeChange> change_of(const Session& session, const CutShown& cu
 void tell(const ChangeSeen& changed, ViewCard* card) {
   card->doubt = changed.doubt;
   card->doubt_of_stroke = !changed.doubt.empty();
-  if (card->doubt_of_stroke) card->open = std::make_shared<const OpenDoubt>(changed.open);
+  if (card->doubt_of_stroke) card->open.push_back(std::make_shared<const OpenDoubt>(changed.open));
   if (count(changed.left) + count(changed.came) > 0)
     card->legend = "\nRed left with the last stroke, green came with it.";
 }
@@ -265,19 +265,27 @@ std::vector<std::uint32_t> still(const std::vector<std::uint32_t>& gaussians,
   return out;
 }
 
+std::vector<std::uint32_t> either_of(std::vector<std::uint32_t> some,
+                                     const std::vector<std::uint32_t>& others) {
+  some.insert(some.end(), others.begin(), others.end());
+  std::ranges::sort(some);
+  some.erase(std::ranges::unique(some).begin(), some.end());
+  return some;
+}
+
 void keep_doubt(const OpenDoubt& doubt, ViewCard* card) {
   if (card->doubt.empty())
     card->doubt = doubt.is_border
                       ? std::string(kThroughSurface)
                       : std::string("something here was ") + (doubt.out.empty() ? "added" : "taken away") +
                             " before, unseen from where you clicked or drew";
-  if (card->open && (doubt.is_border || card->open->is_border)) return;
-  OpenDoubt both = doubt;
-  if (card->open) {
-    both.out.insert(both.out.end(), card->open->out.begin(), card->open->out.end());
-    both.in.insert(both.in.end(), card->open->in.begin(), card->open->in.end());
-  }
-  card->open = std::make_shared<const OpenDoubt>(std::move(both));
+  const auto own =
+      std::ranges::find_if(card->open, [&](const auto& open) { return open->is_border == doubt.is_border; });
+  if (own == card->open.end())
+    card->open.push_back(std::make_shared<const OpenDoubt>(doubt));
+  else if (!doubt.is_border)
+    *own = std::make_shared<const OpenDoubt>(
+        OpenDoubt{either_of(doubt.out, (*own)->out), either_of(doubt.in, (*own)->in), false});
 }
 
 }  // namespace
@@ -285,27 +293,33 @@ void keep_doubt(const OpenDoubt& doubt, ViewCard* card) {
 void keep_doubts(const std::vector<ViewCard>& before, const std::vector<std::uint8_t>& labels,
                  std::vector<ViewCard>* cards) {
   for (const ViewCard& old : before) {
-    if (!old.open || old.looked_at || cards->empty()) continue;
-    const OpenDoubt open{still(old.open->out, labels, false), still(old.open->in, labels, true),
-                         old.open->is_border};
-    if (open.is_border ? open.out.empty() || open.in.empty() : open.out.empty() && open.in.empty()) continue;
-    keep_doubt(open, &*std::ranges::max_element(*cards, {}, [&](const ViewCard& c) {
-                 return glm::dot(c.camera.forward_world(), old.camera.forward_world());
-               }));
+    if (old.looked_at || cards->empty()) continue;
+    ViewCard& nearest = *std::ranges::max_element(*cards, {}, [&](const ViewCard& c) {
+      return glm::dot(c.camera.forward_world(), old.camera.forward_world());
+    });
+    for (const auto& doubt : old.open) {
+      const OpenDoubt open{still(doubt->out, labels, false), still(doubt->in, labels, true),
+                           doubt->is_border};
+      if (open.is_border ? !open.out.empty() && !open.in.empty() : !open.out.empty() || !open.in.empty())
+        keep_doubt(open, &nearest);
+    }
   }
 }
 
 bool looks_at(const Camera& camera, const ViewCard& card, const GaussianCloud& cloud) {
-  if (!card.open || glm::dot(camera.forward_world(), card.camera.forward_world()) < kSameDirection)
+  if (card.open.empty() || glm::dot(camera.forward_world(), card.camera.forward_world()) < kSameDirection)
     return false;
-  std::size_t inside = 0;
-  for (const std::vector<std::uint32_t>* gaussians : {&card.open->out, &card.open->in})
-    for (const std::uint32_t g : *gaussians) {
-      const glm::vec3 at = camera.camera_from_world(cloud.position[g]);
-      const glm::vec2 pixel = camera.pixel_from_camera(at), most(camera.width_px, camera.height_px);
-      inside += at.z > 0 && glm::all(glm::lessThan(glm::abs(2.0f * pixel - most), most));
+  std::size_t inside = 0, all = 0;
+  for (const auto& open : card.open)
+    for (const std::vector<std::uint32_t>* gaussians : {&open->out, &open->in}) {
+      all += gaussians->size();
+      for (const std::uint32_t g : *gaussians) {
+        const glm::vec3 at = camera.camera_from_world(cloud.position[g]);
+        const glm::vec2 pixel = camera.pixel_from_camera(at), most(camera.width_px, camera.height_px);
+        inside += at.z > 0 && glm::all(glm::lessThan(glm::abs(2.0f * pixel - most), most));
+      }
     }
-  return 2 * inside > card.open->out.size() + card.open->in.size();
+  return 2 * inside > all;
 }
 
 namespace {

@@ -29,8 +29,9 @@ struct ViewCard {
   bool only_to_look = false;     // true: the view had no influence on the cut
   std::string doubt;             // why the cutout is in doubt there, after "In doubt: "; empty: it is not
   bool doubt_of_stroke = false;  // true: it is of what the last stroke changed
-  std::shared_ptr<const OpenDoubt> open{};  // what it is of, also since earlier strokes; null: not known
-  bool looked_at = false;                   // true: somebody looked at it, so it ends with the next stroke
+  // What it is of, also since earlier strokes, strokes' and borders apart; empty: not known.
+  std::vector<std::shared_ptr<const OpenDoubt>> open{};
+  bool looked_at = false;    // true: somebody looked at it, so it ends with the next stroke
   std::string legend;        // what its marks of that change mean, a line of its own; empty: it has none
   std::uint64_t serial = 0;  // number that changes with the picture
 };

@@ -71,6 +71,11 @@ std::shared_ptr<const CleanObject> carried_over(const std::shared_ptr<const Clea
   return std::make_shared<const CleanObject>(std::move(out));
 }
 
+bool changes_rest(const SceneWithout& without) {
+  const auto some = [](const RestChanges& c) { return !c.ghosts.empty() || !c.given_back.empty(); };
+  return some(without.changes) || some(without.patch.changes);
+}
+
 // The scene as it is written without the object: those shown, but for what leaves with it, and what is added.
 std::shared_ptr<const CleanObject> rest_to_draw(const GaussianCloud& scene,
                                                 const std::vector<std::uint8_t>& shown,
@@ -160,7 +165,7 @@ Styles styled(const StyleOrder& order, const Styles& before, LabelCache* labels)
     if (!out.without && mostly_same(before.active_labels, active)) out.without = before.without;
     const bool same = out.without == before.without && out.shown[0] == before.shown[0] &&
                       before.display == DisplayMode::kHide;
-    if (out.without && out.without->patch.why_not.empty())
+    if (out.without && changes_rest(*out.without))
       out.clean[0] = same ? before.clean[0] : rest_to_draw(*order.cloud, *out.shown[0], *out.without);
   }
   if (!shows_clean_edges(order.view)) return out;

@@ -15,6 +15,7 @@ void CleanEdges::update() {
   if (std::exchange(seen_, labels) != labels || !ws_.tasks.idle()) seen_since_s_ = ws_.clock_s;
   const bool ahead = ws_.clock_s - seen_since_s_ > kCalmSeconds && ws_.options.works_ahead;
   for (const bool fills : {shows_filled_hole(ws_.view), !shows_filled_hole(ws_.view)}) {
+    if (!std::exchange(shown_[fills ? 1 : 0], shows(fills)) && shows(fills)) given_up(fills) = {};
     const bool wanted = fills ? ws_.view.fill_hole : ws_.view.clean_edges;
     if (shows(fills) || (ahead && wanted)) ask(fills);
   }
@@ -33,12 +34,18 @@ bool CleanEdges::known(const Asked& asked) const {
                      : ws_.clean->known(asked.leaving.labels, asked.leaving.up_world) != nullptr;
 }
 
+bool CleanEdges::computes(bool fills) const {
+  return ws_.tasks.busy(TaskKind::kClean) && fills_ == fills;
+}
+
 void CleanEdges::ask(bool fills) {
   if (!seen_ || !ws_.tasks.idle()) return;
   const Asked now = asked(fills);
-  if (settled(fills) == now) return;
-  settled(fills) = now;
-  if (count_flags(*seen_) > 0 && !known(now)) start(now);
+  if (given_up(fills) == now || known(now)) return;
+  if (count_flags(*seen_) > 0)
+    start(now);
+  else
+    given_up(fills) = now;
 }
 
 void CleanEdges::perform(const CleanAnyway&) {
@@ -47,14 +54,14 @@ void CleanEdges::perform(const CleanAnyway&) {
     throw Error("", "There is no object to clean", "Click an object first");
   ws_.clean->clean_anyway(ws_.labels.labels(ws_.document(), *object, ws_.gaussians()));
   ws_.tasks.cancel(TaskKind::kClean);  // what it computes is not wanted any more
-  settled_ = {};
+  given_up_ = {};
   ++ws_.view_serial;
   ws_.view.clean_edges = true;
 }
 
 void CleanEdges::start(const Asked& asked) {
-  settled(asked.fills) = {};
-  const TaskThread::Order order(TaskKind::kClean, [this, asked] { settled(asked.fills) = asked; });
+  fills_ = asked.fills;
+  const TaskThread::Order order(TaskKind::kClean, [this, asked] { given_up(asked.fills) = asked; });
   ws_.tasks.submit(order, [this, asked, clean = ws_.clean](const Job& job) {
     const Leaving& of = asked.leaving;
     if (asked.fills)
@@ -64,7 +71,6 @@ void CleanEdges::start(const Asked& asked) {
     if (job.cancelled()) return;
     ws_.tasks.post([this, asked, clean] {
       if (clean != ws_.clean || !known(asked)) return;
-      settled(asked.fills) = asked;
       ++ws_.view_serial;
       if (const auto object = clean->known(asked.leaving.labels, asked.leaving.up_world);
           object && !asked.fills && !object->report.cleaned && shows(false))
@@ -75,9 +81,9 @@ void CleanEdges::start(const Asked& asked) {
 
 bool CleanEdges::cancel() {
   const bool fills = shows_filled_hole(ws_.view);
-  if (!shows(fills) || !ws_.tasks.busy(TaskKind::kClean)) return false;
+  if (!shows(fills) || !computes(fills)) return false;
   ws_.tasks.cancel(TaskKind::kClean);
-  settled(fills) = asked(fills);
+  given_up(fills) = asked(fills);
   return true;
 }
 
@@ -90,12 +96,14 @@ std::shared_ptr<const SceneWithout> CleanEdges::without() const {
 
 std::string CleanEdges::hole_text() const {
   if (!shows_filled_hole(ws_.view)) return {};
+  const auto now = without();
+  if (now && !now->patch.why_not.empty()) return "Not filled: " + now->patch.why_not + ".";
   if (ws_.gaussians() > kMostToCopy)
-    return "This scene is too large to show it filled; exports of the rest fill it.";
-  const auto& without = viewport_.styles().without;
-  if (!without) return ws_.tasks.busy(TaskKind::kClean) ? "Filling the hole...  (Esc: stop)" : "Not filled.";
-  if (!without->patch.why_not.empty()) return "Not filled: " + without->patch.why_not + ".";
-  return fmt::format("Filled by {}, all invented.", gaussians_text(without->patch.changes.given_back.size()));
+    return "This scene is too large to show it filled; exports of the rest fill it where they can.";
+  if (now)
+    return fmt::format("Filled by {}, all invented.", gaussians_text(now->patch.changes.given_back.size()));
+  if (computes(true)) return "Filling the hole...  (Esc: stop)";
+  return viewport_.styles().without ? "Filled as before the last change." : "Not filled.";
 }
 
 }  // namespace splatcut

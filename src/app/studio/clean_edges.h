@@ -40,16 +40,19 @@ class CleanEdges {
   Asked asked(bool fills) const;  // of seen_
   bool known(const Asked& asked) const;
   bool shows(bool fills) const;  // the view does
-  void ask(bool fills);          // computes it, if it is not known and was not given up
+  bool computes(bool fills) const;
+  void ask(bool fills);  // computes it, if it is not known and was not given up
   void start(const Asked& asked);
-  Asked& settled(bool fills) { return settled_[fills ? 1 : 0]; }
+  Asked& given_up(bool fills) { return given_up_[fills ? 1 : 0]; }
 
   Workspace& ws_;
   const Viewport& viewport_;
   const CutJobs& cuts_;
-  std::array<Asked, 2> settled_;  // what is computed, or was given up
-  Flags seen_;                    // labels at the last update()
-  double seen_since_s_ = 0;       // clock time since which labels and worker are quiet
+  std::array<Asked, 2> given_up_;  // what was cancelled, or failed, since the view last began to show it
+  std::array<bool, 2> shown_{};    // shows() at the last update()
+  bool fills_ = false;             // which was started last
+  Flags seen_;                     // labels at the last update()
+  double seen_since_s_ = 0;        // clock time since which labels and worker are quiet
 };
 
 }  // namespace splatcut

@@ -144,7 +144,7 @@ bool Studio::update(double seconds) {
   edits_.update();
   run_held();
   const bool moves = viewport_.update(seconds, flight());
-  if (ws_.scene && !moves) cuts_.looked_from(viewport_.pane_camera());
+  if (ws_.scene && !viewport_.moving()) cuts_.looked_from(viewport_.pane_camera());
   clean_edges_.update();
   seen_views_.update();
   clicks_.update();

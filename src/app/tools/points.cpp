@@ -16,17 +16,14 @@ std::optional<glm::vec3> solid_point(const ToolHand& hand) {
   constexpr int kAround = 8;
   constexpr float kRadiusPoints = 14, kSameDepth = 0.02f;  // of the depth
   const Camera& camera = hand.context.pane_camera;
-  const auto depth = [&](const PickedPoint& point) {
-    return camera.camera_from_world(point.position_world).z;
-  };
   const auto own = hand.context.pick(hand.at_px);
   if (!own) return {};
-  std::vector<float> depths = {depth(*own)};
+  std::vector<float> depths = {camera.camera_from_world(own->position_world).z};
   for (int i = 0; i < kAround; ++i) {
     const float angle = glm::two_pi<float>() * static_cast<float>(i) / kAround;
     const glm::vec2 aside =
         kRadiusPoints * hand.context.pixels_per_point * glm::vec2(std::cos(angle), std::sin(angle));
-    if (const auto point = hand.context.pick(hand.at_px + aside)) depths.push_back(depth(*point));
+    if (const auto depth = hand.context.depth(hand.at_px + aside)) depths.push_back(*depth);
   }
   const auto [least, most] = std::minmax_element(depths.begin() + 1, depths.end());
   const float slack = kSameDepth * depths.front();

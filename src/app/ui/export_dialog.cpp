@@ -60,6 +60,7 @@ void propose_path(UiContext& ui) {
 void choose_what(UiContext& ui, ExportWhat what) {
   ExportChoice& choice = ui.state.exporting;
   choice.what = what;
+  choice.overwrite = false;  // with other content it is asked anew
   if (!choice.path_typed) return propose_path(ui);
   if (what == ExportWhat::kAllObjects && choice.path.ends_with(choice.format.extension))
     choice.path.resize(choice.path.size() - std::string_view(choice.format.extension).size());

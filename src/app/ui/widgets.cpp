@@ -128,7 +128,7 @@ void tooltip_within(const UiRect& area, const std::string& text) {
 
 AxisSigns axes_of_file(const Studio& studio) {
   const OpenedScene* opened = studio.scene();
-  const bool ours = !opened || opened->scene->taken_axes == SpzAxes::kPly;
+  const bool ours = !opened || opened->files.front().spz_axes == SpzAxes::kPly;
   return ours ? AxisSigns() : opened->scene->format.axes;
 }
 

@@ -71,7 +71,8 @@ void coming_label(const UiContext& ui, const UiRect& pane, const std::string& te
 using OutlineWorld = std::vector<std::pair<glm::vec3, glm::vec3>>;
 
 bool shows_hole_filled(const Studio& studio) {
-  return studio.viewport().styles().without && studio.viewport().clean(0);
+  const auto& without = studio.viewport().styles().without;
+  return without && without->patch.why_not.empty() && studio.viewport().clean(0);
 }
 
 // Without the object, around the hole that is filled, as long as outlines show, or around ground that no view

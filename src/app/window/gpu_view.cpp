@@ -62,6 +62,12 @@ void GpuView::refresh(Pane* pane, const std::shared_ptr<const GaussianCloud>& cl
 
 std::array<GLuint, 2> GpuView::draw(const Studio& studio) {
   std::array<GLuint, 2> textures{};
+  const auto stands_in = [&](int i) { return studio.viewport().clean(i) != nullptr; };
+  if (!studio.scene() || (!stands_in(0) && !stands_in(1))) {  // as large as the scene may be
+    clean_.reset();
+    clean_order_.cloud.reset();
+    clean_order_.order.reset();
+  }
   if (!studio.scene()) return textures;
   const Camera camera = studio.viewport().pane_camera();
   const DrawLimits limits = studio.viewport().draw_limits();

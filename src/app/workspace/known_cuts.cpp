@@ -105,8 +105,13 @@ void CutJobs::renew_views() {
 void CutJobs::looked_from(const Camera& camera) {
   const ObjectItem* object = ws_.document().active_object();
   CutRun* run = object ? known_run(object->id, object->cut_key) : nullptr;
-  for (ViewCard& card : run ? std::span(run->views) : std::span<ViewCard>())
-    card.looked_at = card.looked_at || looks_at(camera, card, *ws_.scene->cloud);
+  const auto looks = [&](const ViewCard& card) {
+    return !card.looked_at && looks_at(camera, card, *ws_.scene->cloud);
+  };
+  if (!run || std::ranges::none_of(run->views, looks)) return;
+  for (Known& known : known_)  // other sizes and states of it, whose sides it shows as well
+    if (known.object == object->id)
+      for (ViewCard& card : known.run.views) card.looked_at = card.looked_at || looks(card);
 }
 
 // Of the active object's labels, for the heat map: kept by the session from the last cut, or computed again.

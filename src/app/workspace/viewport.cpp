@@ -274,7 +274,10 @@ std::optional<PickedPoint> Viewport::pick(const glm::vec2& pixel) const {
   if (x < 0 || y < 0 || x >= camera.width_px || y >= camera.height_px) return {};
   const std::shared_ptr<const Frame> frame = full_picture_of(camera, pressed_pane());
   if (!frame) return hit_in(camera, pixel, shown(pressed_pane()));
-  if (frame->first_hit.at(x, y) < 0) return {};
+  if (frame->first_hit.at(x, y) < 0) {
+    const bool invented = ws_.view.display == DisplayMode::kHide && clean(pressed_pane());
+    return invented ? hit_in(camera, pixel, shown(pressed_pane())) : std::nullopt;  // what lies below it
+  }
   return PickedPoint{camera.world_from_pixel(pixel, frame->depth.at(x, y)), frame->first_hit.at(x, y)};
 }
 

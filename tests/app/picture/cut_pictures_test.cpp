@@ -243,7 +243,7 @@ TEST_CASE("thumbnails: half a thing stays in doubt when a whole one joins, until
   CHECK(through(whole) == 0);
   // It is looked at from there, not from beside, nor where something else fills the picture.
   for (ViewCard& card : before) {
-    if (!card.open) continue;
+    if (card.open.empty()) continue;
     CHECK(looks_at(card.camera, card, *scene.cloud));
     Camera other = card.camera;
     other.cx_px += 2 * static_cast<float>(other.width_px);
@@ -255,4 +255,31 @@ TEST_CASE("thumbnails: half a thing stays in doubt when a whole one joins, until
   now = cards(joined);
   keep_doubts(before, joined, &now);
   CHECK(through(now) == anew);
+}
+
+TEST_CASE(
+    "thumbnails: what a stroke took stays in doubt beside a border's doubt, and counts once however often "
+    "kept") {
+  const auto card_with = [](std::vector<std::shared_ptr<const OpenDoubt>> open) {
+    ViewCard card;
+    card.camera = look_at({0, 0, -5}, {0, 0, 0}, {0, -1, 0}, 1, 40, 30);
+    card.open = std::move(open);
+    return card;
+  };
+  const auto taken = std::make_shared<const OpenDoubt>(OpenDoubt{.out = {0, 1, 2}}),
+             border = std::make_shared<const OpenDoubt>(OpenDoubt{.out = {4}, .in = {5}, .is_border = true});
+  const std::vector<std::uint8_t> labels = {0, 0, 0, 1, 0, 1}, mended = {0, 0, 0, 1, 1, 1},
+                                  back = {1, 1, 0, 1, 1, 1};
+  std::vector<ViewCard> now = {card_with({border})};
+  for (int i = 0; i < 3; ++i) keep_doubts({card_with({taken})}, labels, &now);
+  REQUIRE(now.front().open.size() == 2);
+  CHECK(now.front().open.back()->out == taken->out);
+  std::vector<ViewCard> after = {card_with({})}, undone = {card_with({})};
+  keep_doubts(now, mended, &after);  // the border is right now
+  REQUIRE(after.front().open.size() == 1);
+  CHECK(after.front().open.front()->out == taken->out);
+  CHECK_FALSE(after.front().doubt.empty());
+  keep_doubts(now, back, &undone);  // and most of what was taken is back
+  CHECK(undone.front().open.empty());
+  CHECK(undone.front().doubt.empty());
 }

@@ -142,3 +142,52 @@ TEST_CASE("hands: a hole that cannot be filled is said in the picture, before an
   CHECK(hands.studio().messages().back().kind == Message::Kind::kRefused);  // no green tick
   CHECK(hands.said().find("No hole is filled: " + patch.why_not) != std::string::npos);
 }
+
+TEST_CASE(
+    "hands: a hole whose filling was stopped, or that was filled long ago, is filled when it is asked for "
+    "again") {
+  Hands hands = hands_on_sample();
+  keep_edges(hands);
+  const auto waits = [&] {
+    return hands.studio().finish().hole_text() == "Filling the hole...  (Esc: stop)";
+  };
+  hands.studio().run(Action::kFillHole);
+  for (int i = 0; i < 3000 && !waits(); ++i) hands.app.frames(1);
+  REQUIRE(waits());
+  hands.studio().apply(Cancel{});
+  REQUIRE(hands.app.settle());
+  CHECK(hands.said() == "Cancelled");
+  CHECK(hands.studio().finish().hole_text() == "Not filled.");
+  hands.app.frames(120);
+  CHECK(hands.studio().finish().hole_text() == "Not filled.");  // not by itself
+  press(hands, Action::kFillHole);
+  press(hands, Action::kFillHole);
+  CHECK(hands.studio().finish().hole_text().starts_with("Filled by "));
+  press(hands, Action::kFillHole);
+  // Other holes take the place of what was kept.
+  const ScratchFolder folder("many_holes");
+  for (const auto& [name, edges, fill] :
+       {std::tuple{"a.ply", true, true}, {"b.ply", true, false}, {"c.ply", true, true}}) {
+    hands.studio().apply(
+        Export{{ExportWhat::kRest, SceneFormat::kPly, folder / name, false, {}, edges, fill}});
+    REQUIRE(hands.app.settle());
+  }
+  press(hands, Action::kFillHole);
+  CHECK(hands.studio().finish().hole_text().starts_with("Filled by "));
+}
+
+TEST_CASE("hands: a click on what is invented is one on what lies below it") {
+  Hands hands = hands_on_sample();
+  press(hands, Action::kHide);
+  const glm::vec2 at = hands.in_viewport(hands.app.screen_of(kOnApple));
+  press(hands, Action::kFillHole);
+  const auto& hits = hands.studio().viewport().picture()->frames[0]->first_hit;
+  std::optional<glm::vec2> invented;  // the nearest such pixel below the apple's middle
+  for (int y = static_cast<int>(at.y); y < hits.height() && !invented; ++y)
+    if (hits.at(static_cast<int>(at.x), y) < 0) invented = glm::vec2(static_cast<int>(at.x), y) + 0.5f;
+  REQUIRE(invented);
+  const auto hit = hands.studio().viewport().pick(*invented);
+  REQUIRE(hit);
+  CHECK(hands.studio().labels(hands.studio().document().active)[static_cast<std::size_t>(hit->gaussian)] ==
+        0);
+}

@@ -166,6 +166,9 @@ TEST_CASE(
     CHECK(still() >= 1);  // it has its mark while it is looked at
     hands.studio().apply(GoToCamera{front});
     REQUIRE(hands.app.settle());
+    hands.studio().apply(StepScale{-1});  // of the last click, whose sides they are
+    REQUIRE(hands.app.settle());
+    CHECK(still() == 0);
     click_on(hands, kOnMug, PointerButton::kRight);
     CHECK(still() == 0);
   }

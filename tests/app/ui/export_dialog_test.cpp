@@ -287,6 +287,12 @@ TEST_CASE(
   CHECK(choice.path == (folder / "mine").string());
   hands.app.press_item("###export", {"The object"});
   CHECK(target_of(choice) == folder / "mine.ply");
+  std::ofstream(folder / "mine.ply") << "x";
+  hands.app.frames(2);
+  hands.app.press_item("###export", {"Replace the file that is there"});
+  CHECK(choice.overwrite);
+  hands.app.press_item("###export", {"Everything else"});
+  CHECK_FALSE(choice.overwrite);  // allowed for another content
 }
 
 TEST_CASE("export dialog: cancelled it leaves clean edges as they were, exported as they are there") {
