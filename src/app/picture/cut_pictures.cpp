@@ -269,7 +269,7 @@ std::vector<std::uint32_t> either_of(std::vector<std::uint32_t> some,
                                      const std::vector<std::uint32_t>& others) {
   some.insert(some.end(), others.begin(), others.end());
   std::ranges::sort(some);
-  some.erase(std::ranges::unique(some).begin(), some.end());
+  some.erase(std::unique(some.begin(), some.end()), some.end());
   return some;
 }
 
