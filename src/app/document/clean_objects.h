@@ -3,8 +3,8 @@
 //
 // Thread-safe; two threads that ask for the same object at the same time both compute it. Memory: labels and
 // Gaussians of the last few objects, labels of those that are cleaned anyway, and what the last two objects
-// change by leaving. Each array of labels is
-// compared with the kept ones once, from then on by its address: asking in every frame costs nothing.
+// change by leaving. Each array of labels is compared with the kept ones once, from then on by its address:
+// asking in every frame costs nothing.
 #pragma once
 
 #include <deque>

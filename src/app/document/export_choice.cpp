@@ -83,8 +83,13 @@ void EdgesKnown::count(const std::optional<CleanReport>& report, const std::stri
   }
 }
 
-std::size_t left_to_write(const ExportChoice& choice, std::size_t gaussians, const EdgesKnown& edges) {
-  return choice.what == ExportWhat::kRest ? gaussians : gaussians - std::min(edges.left_out, gaussians);
+std::size_t left_to_write(const ExportChoice& choice, std::size_t gaussians, const EdgesKnown& edges,
+                          const HoleKnown& hole) {
+  if (choice.what != ExportWhat::kRest) return gaussians - std::min(edges.left_out, gaussians);
+  if (!hole.without) return gaussians;
+  const RestChanges &edge = hole.without->changes, &fill = hole.without->patch.changes;  // no ghost in both
+  return gaussians + edge.given_back.size() + fill.given_back.size() -
+         std::min(edge.ghosts.size() + fill.ghosts.size(), gaussians);
 }
 
 std::string amount_text(const ExportChoice& choice, std::size_t gaussians, const EdgesKnown& edges,
@@ -97,8 +102,8 @@ std::string amount_text(const ExportChoice& choice, std::size_t gaussians, const
                      about     ? "About "
                      : at_most ? "At most "
                                : "",
-                     grouped(left_to_write(choice, gaussians, edges)), about || plan.about ? "about " : "",
-                     human_bytes(plan.bytes));
+                     grouped(left_to_write(choice, gaussians, edges, hole)),
+                     about || plan.about ? "about " : "", human_bytes(plan.bytes));
 }
 
 std::string edges_stay_text(const EdgesKnown& edges) {

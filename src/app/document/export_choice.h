@@ -65,8 +65,10 @@ struct HoleKnown {
   std::string why_not() const { return fill && without ? without->patch.why_not : ""; }
 };
 
-// Number of Gaussians of so many that edges leave to write: exact where all is known.
-std::size_t left_to_write(const ExportChoice& choice, std::size_t gaussians, const EdgesKnown& edges);
+// Number of Gaussians to write where there are so many in the scene: exact where what edges and the hole
+// change is known, but for ghosts that were deleted.
+std::size_t left_to_write(const ExportChoice& choice, std::size_t gaussians, const EdgesKnown& edges,
+                          const HoleKnown& hole = {});
 
 // What the dialog says. How much is written of so many Gaussians: what clean edges change is not known before
 // they are made, nor what fills a hole.

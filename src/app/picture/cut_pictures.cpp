@@ -1,7 +1,6 @@
 #include "app/picture/cut_pictures.h"
 
 #include <algorithm>
-#include <numeric>
 #include <optional>
 
 #include "app/picture/stroke_change.h"
@@ -86,25 +85,19 @@ Border border_of(const RasterOutput& drawn, const Mask& mask) {
 }
 
 // Whether it runs through a surface; then the card is in doubt, of the Gaussians on both sides of it.
-bool doubts_border(const Drawer& drawer, const RasterOutput& drawn, const Mask& mask, const Job& job,
-                   ViewCard* card) {
+bool doubts_border(const RasterOutput& drawn, const Mask& mask, ViewCard* card) {
   const Border border = border_of(drawn, mask);
   if (border.share() <= kMuchThroughSurface) return false;
-  RasterOptions options;
-  options.colour = false;
-  std::vector<std::uint32_t> own_number(drawer.cloud().size());
-  std::iota(own_number.begin(), own_number.end(), 0u);
-  options.groups = own_number;
-  const Image<std::uint32_t> shown =
-      drawer.draw(limited_to_width(card->camera, kThumbnailWidth), options, job).group;
-  OpenDoubt doubt;
-  doubt.is_border = true;
-  for (const auto& [pixels, gaussians] :
-       {std::pair(&border.inside, &doubt.in), {&border.outside, &doubt.out}})
-    for (const glm::ivec2& p : *pixels)
-      if (shown.at(p.x, p.y) != kNoGroup) gaussians->push_back(shown.at(p.x, p.y));
+  const auto shown_at = [&](const std::vector<glm::ivec2>& pixels) {
+    std::vector<std::uint32_t> gaussians;
+    for (const glm::ivec2& p : pixels)
+      if (const std::int32_t g = drawn.first_hit.at(p.x, p.y); g >= 0)
+        gaussians.push_back(static_cast<std::uint32_t>(g));
+    return gaussians;
+  };
   card->doubt = kThroughSurface;
-  card->open.push_back(std::make_shared<const OpenDoubt>(std::move(doubt)));
+  card->open.push_back(
+      std::make_shared<const OpenDoubt>(OpenDoubt{shown_at(border.outside), shown_at(border.inside), true}));
   return true;
 }
 
@@ -190,7 +183,6 @@ ViewCard mask_card(const ViewReport& view, const Rgb8& colour) {
 std::vector<ViewCard> picture_cards(Session& session, const CutShown& cut, const Job& job) {
   const GaussianCloud& cloud = *session.scene().cloud;
   const CutResult& result = cut.result;
-  const Drawer drawer(cloud, nullptr, &session.blocks());
   const std::optional<StrokeChange> change = change_of(session, cut, job);
   const auto changed_in = [&](const Camera& camera) {
     return change ? change->seen_from(limited_to_width(camera, kThumbnailWidth), job) : ChangeSeen();
@@ -204,7 +196,7 @@ std::vector<ViewCard> picture_cards(Session& session, const CutShown& cut, const
     if (job.cancelled()) return cards;
     cards.push_back(card_of(view, thumbnail(drawn, view.mask, view.used, cut.colour, changed)));
     tell(changed, &cards.back());
-    if (cards.back().doubt.empty() && view.used) doubts_border(drawer, drawn, view.mask, job, &cards.back());
+    if (cards.back().doubt.empty() && view.used) doubts_border(drawn, view.mask, &cards.back());
   }
   if (!looked_around_by_none(result, cut.request, cut.settings) || result.views.empty()) return cards;
   const DoubtsOfSides doubts(session, cut.request, result);
@@ -220,7 +212,7 @@ std::vector<ViewCard> picture_cards(Session& session, const CutShown& cut, const
         std::make_shared<const Image<Rgba8>>(thumbnail(drawn, mask, true, cut.colour, changed));
     cards.push_back({.camera = view.camera, .used = false, .picture = picture, .only_to_look = true});
     tell(changed, &cards.back());
-    if (cards.back().doubt.empty() && !doubts_border(drawer, drawn, mask, job, &cards.back()))
+    if (cards.back().doubt.empty() && !doubts_border(drawn, mask, &cards.back()))
       cards.back().doubt = doubts.of(view.camera, job);
   }
   return cards;

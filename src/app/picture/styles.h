@@ -43,7 +43,8 @@ struct Styles {
   // clean edges: until it is cleaned anew after its labels changed it is as before where they are the same,
   // and not `cleaned` in its report. Without the object, the scene with its hole filled.
   std::array<std::shared_ptr<const CleanObject>, 2> clean;
-  std::shared_ptr<const SceneWithout> without;  // what that hole is filled by; null: none is shown filled
+  // What leaves and comes there, of the labels before as long as that is computed anew; null: not known.
+  std::shared_ptr<const SceneWithout> without;
   Flags active_labels;       // labels of the active object, all 0 without one; null: they are not made yet
   std::size_t floaters = 0;  // number of Gaussians in floaters
 };

@@ -103,7 +103,8 @@ std::string CleanEdges::hole_text() const {
   if (now)
     return fmt::format("Filled by {}, all invented.", gaussians_text(now->patch.changes.given_back.size()));
   if (computes(true)) return "Filling the hole...  (Esc: stop)";
-  return viewport_.styles().without ? "Filled as before the last change." : "Not filled.";
+  const auto& before = viewport_.styles().without;
+  return before && before->patch.why_not.empty() ? "Filled as before the last change." : "Not filled.";
 }
 
 }  // namespace splatcut

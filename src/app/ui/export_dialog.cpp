@@ -257,8 +257,11 @@ const FormatPlan& export_plan(UiContext& ui, std::size_t gaussians) {
       visit_objects(document, scene.cloud->size(), [&](const ObjectToSave& o) { add(o.labels); });
     else
       add(exported(document, document.active, choice.what, scene.cloud->size()));
-    rows.resize(std::min(rows.size(), gaussians));
+    const std::size_t own = rows.size();
+    rows.resize(std::min(own, gaussians));
     choice.plan = choice.format.plan(*scene.scene, rows, moved);
+    if (gaussians > own && own > 0)  // what fills a hole comes beside
+      choice.plan.bytes = choice.plan.bytes * gaussians / own;
     choice.plan_key = std::move(key);
   }
   return choice.plan;
@@ -299,7 +302,7 @@ void export_dialog(UiContext& ui) {
   const std::size_t gaussians = gaussians_to_export(ui.studio, choice.what);
   const EdgesKnown edges = edges_known(ui.studio, choice.what);
   const HoleKnown hole = hole_known(ui.studio, choice.what);
-  const FormatPlan& plan = export_plan(ui, left_to_write(choice, gaussians, edges));
+  const FormatPlan& plan = export_plan(ui, left_to_write(choice, gaussians, edges, hole));
   const Palette& p = ui.theme.colour;
   line_across(p);
   fact(icon::kInfo, p.accent, amount_text(choice, gaussians, edges, hole, plan));

@@ -301,6 +301,7 @@ TEST_CASE("exports: the dialog promises a number, and that nothing is lost, only
       stays_open{true, std::make_shared<const SceneWithout>(refused)};
   CHECK(changes_text(choice, rows, fills) ==
         "The hole is filled by 1,234 Gaussians, all invented; what lies there and at the rim is replaced.");
+  CHECK(amount_text(choice, 139338, rows, fills, plan) == "About 140,572 Gaussians, about 4.3 MB");
   CHECK(fills.why_not().empty());
   CHECK(stays_open.why_not() == refused.patch.why_not);
   CHECK(amount_text(choice, 139338, rows, stays_open, plan) == "139,338 Gaussians, 4.3 MB");
