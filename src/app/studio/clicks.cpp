@@ -129,13 +129,13 @@ const ClickMeanings* Clicks::offered() const {
 }
 
 const ClickMeanings* Clicks::offer() const {
-  const bool asks = ws_.view.tool == Tool::kClick || ws_.view.tool == Tool::kBox;
+  const bool asks = tool_of(ws_.view.tool).clicks_object;
   return asks && ws_.view.display == DisplayMode::kWhole && !ws_.view.heat ? offered() : nullptr;
 }
 
 std::string Clicks::why_no_meanings() const {
   const ObjectItem* object = ws_.document().active_object();
-  if (!object || object->locked || ws_.view.tool != Tool::kClick || stroke_count(*object) != 1 ||
+  if (!object || object->locked || !tool_of(ws_.view.tool).clicks_object || stroke_count(*object) != 1 ||
       !any_mark(*object))
     return {};
   const ClickMeanings* known = meanings(*object);
@@ -189,16 +189,16 @@ void Clicks::perform(const StepScale& c) {
 bool Clicks::asks_ahead() const {
   const ObjectItem* active = ws_.document().active_object();
   const bool has_room = active || ws_.document().objects.size() < kMostObjects;
-  if (!ws_.session || !has_room || ws_.view.tool != Tool::kClick || viewport_.panes() != 1 || ws_.view.heat ||
-      ws_.tools.dragging() || viewport_.floaters_shown() || viewport_.range_shown() || cuts_.cutting() != 0 ||
-      (active && active->locked))
+  if (!ws_.session || !has_room || !tool_of(ws_.view.tool).clicks_object || viewport_.panes() != 1 ||
+      ws_.view.heat || ws_.tools.dragging() || viewport_.floaters_shown() || viewport_.range_shown() ||
+      cuts_.cutting() != 0 || (active && active->locked))
     return false;
   return viewport_.style_current() && viewport_.full_picture_of(viewport_.pane_camera());
 }
 
 const StrokeMark* Clicks::pointed_mark() const {
   const ObjectItem* object = ws_.document().active_object();
-  if (!pointer_inside_ || ws_.view.tool != Tool::kClick || ws_.tools.dragging() ||
+  if (!pointer_inside_ || !tool_of(ws_.view.tool).clicks_object || ws_.tools.dragging() ||
       ws_.tools.at_last_click() || !object || object->locked)
     return nullptr;
   return viewport_.mark_at(ws_.tools.pointer_px());

@@ -90,12 +90,18 @@ std::vector<Command> PointerTools::release(const glm::vec2& pixel, PointerButton
                                            const Modifiers& modifiers, const ToolContext& context) {
   if (state_.button != button) return {};
   std::vector<Command> commands = move(pixel, modifiers, context);
-  const Drag drag = std::exchange(drag_, Drag::kNone);
-  if (drag == Drag::kShape) {
-    commands = use(tool_of(context.view.tool).release, pixel, context);
+  const Tool& tool = tool_of(context.view.tool);
+  Drag drag = std::exchange(drag_, Drag::kNone);
+  const bool moved = glm::length(pixel - state_.pressed_px) > kDragPoints * context.pixels_per_point;
+  if (drag == Drag::kShape && tool.clicks_object && !moved) {
+    drag = Drag::kMaybeClick;
     state_.path_px.clear();
   }
-  if (drag == Drag::kMaybeClick) commands = use(tool_of(context.view.tool).click, state_.pressed_px, context);
+  if (drag == Drag::kShape) {
+    commands = use(tool.release, pixel, context);
+    state_.path_px.clear();
+  }
+  if (drag == Drag::kMaybeClick) commands = use(tool.click, state_.pressed_px, context);
   state_.button.reset();
   return commands;
 }

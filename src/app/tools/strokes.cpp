@@ -57,6 +57,7 @@ constinit const Tool Tool::kClick = {
     .first_of_group = true,
     .strokes = true,
     .shows_keys = true,
+    .clicks_object = true,
     .click = click_object,
 };
 
@@ -84,8 +85,8 @@ constinit const Tool Tool::kBox = {
     .key = '4',
     .sentence =
         "Drag a box around the object. Shift adds what is in the box, Ctrl removes it, Alt keeps of "
-        "the object what is in it.",
-    .hint = "drag around the object   Shift: add   Ctrl: remove   Alt: intersect",
+        "the object what is in it. Clicks correct it, as with Click an object.",
+    .hint = "drag around the object   Shift: add   Ctrl: remove   Alt: intersect   right click: rest",
     .icon =
         [] {
           return Icon{icon_loop({{-0.9f, -0.75f}, {0.9f, -0.75f}, {0.9f, 0.75f}, {-0.9f, 0.75f}}),
@@ -94,6 +95,7 @@ constinit const Tool Tool::kBox = {
     .drag = Drag::kCorners,
     .strokes = true,
     .shows_keys = true,
+    .clicks_object = true,
     .release =
         [](ToolHand& hand) {
           const std::vector<glm::vec2>& corners = hand.state.path_px;
@@ -101,6 +103,7 @@ constinit const Tool Tool::kBox = {
             hand.ask(AddBox{hand.context.pane_camera, corners[0], corners[1], hand.context.seen(),
                             hand.state.held_operation()});
         },
+    .click = click_object,
     .shape = ToolShape::kRectangle,
 };
 

@@ -51,6 +51,7 @@ struct Tool {
   float brush = 0;           // radius of what the tool draws over that of the brush; 0: the tool has no brush
   bool strokes = false;      // true: what the tool draws goes to the cut
   bool shows_keys = false;   // true: a sign at the pointer shows what the held keys make of a stroke
+  bool clicks_object = false;  // true: a click of either button corrects the object, without any drag
   Selects selects = Selects::kNothing;  // what the tool selects by hand: by pixels, by colour, or in space
 
   void (*press)(ToolHand& hand) = nullptr;    // a shape begins

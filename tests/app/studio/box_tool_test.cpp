@@ -72,6 +72,27 @@ TEST_CASE("hands: keys held with a box add what it would cut out, remove it, or 
   CHECK(hands.studio().history().entries().size() == entries);
 }
 
+TEST_CASE("hands: a click with the box in hand is a click, of either button") {
+  Hands hands = hands_on_sample();
+  const auto labels = [&] { return hands.studio().labels(hands.studio().document().active); };
+  const auto clicked = [&](PointerButton button) {
+    hands.app.click(hands.app.screen_of(kOnOrange), button);
+    hands.app->frame(0.5);  // no double-click with the next
+    REQUIRE(hands.app.settle());
+    hands.app.move(hands.app->interface().viewport().min + glm::vec2(300, 60));
+    return labels();
+  };
+  const auto apple = labels();
+  const auto both = clicked(PointerButton::kLeft), without = clicked(PointerButton::kRight);
+  for (int undone = 0; undone < 2; ++undone) hands.app.key('Z', {.ctrl = true});
+  REQUIRE(hands.app.settle());
+  REQUIRE(labels() == apple);
+  hands.app.key('4');
+  CHECK(clicked(PointerButton::kLeft) == both);
+  CHECK(clicked(PointerButton::kRight) == without);
+  CHECK(count_flags(both) > count_flags(without));
+}
+
 TEST_CASE("hands: a box with Ctrl or Alt wants an object to work on") {
   Hands hands(false);
   const Camera camera = hands.studio().viewport().pane_camera();
