@@ -92,11 +92,17 @@ void look_from_all_sides(const CutoutFolder& to, const ObjectFiles& files,
   report->seen_ms = ms_since(start);
 }
 
-// What was invented comes last. What is not given back is told in the reports.
-RestChanges changes_of(const CutoutFolder& to, std::span<EdgesReport> objects) {
-  RestChanges all, filled;
+// What fills the holes of all objects.
+RestChanges fill_of(std::span<const EdgesReport> objects) {
+  RestChanges filled;
   for (const EdgesReport& object : objects)
     if (object.fill) add(object.fill->changes, &filled);
+  return filled;
+}
+
+// What was invented comes last. What is not given back is told in the reports.
+RestChanges changes_of(const CutoutFolder& to, const RestChanges& filled, std::span<EdgesReport> objects) {
+  RestChanges all;
   for (EdgesReport& object : objects) {
     if (!object.rest) continue;
     object.not_given_back = spare_copy(to.scene, SceneFormat::kPly, to.to.has_value(), filled, &*object.rest);
@@ -168,11 +174,12 @@ void CutoutOptions::add_to(CLI::App& command) {
       .add_option("--write", write,
                   "Which files: object, rest, labels, pictures, npy (labels.npy for numpy), objects (all in "
                   "objects.ply, numbered as object_id), hull (convex, of each object, as .obj), seen (from "
-                  "which sides each was, as a picture); "
+                  "which sides each was, as a picture), fill (what fills holes in the rest, alone); "
                   "several with commas. Without it: the first four")
       ->delimiter(',')
       ->allow_extra_args(false)
-      ->check(CLI::IsMember({"object", "rest", "labels", "pictures", "npy", "objects", "hull", "seen"}));
+      ->check(
+          CLI::IsMember({"object", "rest", "labels", "pictures", "npy", "objects", "hull", "seen", "fill"}));
   command
       .add_option("--origin", origin,
                   "What becomes 0, 0, 0 of the written Gaussians: scene (as it is), centre or foot of the "
@@ -195,6 +202,8 @@ void CutoutOptions::check() const {
   if (fill == "surface" && !writes("rest"))
     throw Error("--fill surface", "fills the hole in rest.ply, which is not written",
                 "Add rest to --write, or leave --fill out");
+  if (writes("fill") && fill != "surface")
+    throw Error("--write fill", "writes what fills a hole, and none is filled", "Add --fill surface");
 }
 
 std::string EdgesReport::sentence() const {
@@ -296,7 +305,10 @@ RestReport write_rest(const CutoutFolder& to, const std::vector<std::uint8_t>& o
     if (!saved.loss.empty()) report.lost[file] = saved.loss;
   };
   if (to.options.writes("rest")) {
-    const RestChanges changes = changes_of(to, objects);
+    const RestChanges filled = fill_of(objects), changes = changes_of(to, filled, objects);
+    if (to.options.writes("fill") && !filled.given_back.empty())
+      save_gaussians(to.folder.file("fill.ply"), to.scene, {}, &filled.given_back, SceneFormat::kPly, to.to,
+                     {.up = to.up});
     const SaveReport saved = save_rest(to.folder.file("rest.ply"), to.scene, rest, changes, SceneFormat::kPly,
                                        to.to, {.may_be_empty = true, .up = to.up});
     report.gaussians = saved.gaussians;

@@ -393,6 +393,11 @@ struct Export {
   std::string title() const { return "Export"; }
   static constexpr bool writes_file = true, after_cuts = true;
 };
+struct KeepFill {  // what fills the hole becomes a file of the scene and an object, in place of what it
+                   // replaces
+  std::filesystem::path path;  // a .ply
+  static constexpr bool writes_file = true;
+};
 struct SaveSnapshot {
   std::filesystem::path path;
   bool transparent = true;
@@ -419,6 +424,6 @@ using Command =
                  LeaveOutView, SetSmoothness, SetPreset, SetBackground, SetUp, CleanAnyway, Undo, Redo,
                  JumpHistory, Cancel, Recompute, SetView, GoToCamera, LookAlong, NextBackdrop, SetBackdrop,
                  SetFieldOfView, OpenScene, AddScene, PlaceScene, BringHere, RemoveScene, SaveWork,
-                 DropAutosave, Export, SaveSnapshot, SaveTurntable>;
+                 DropAutosave, Export, KeepFill, SaveSnapshot, SaveTurntable>;
 
 }  // namespace splatcut

@@ -145,12 +145,10 @@ bool History::push(std::string title, Document after, std::string merge_key) {
   return true;
 }
 
-void History::push_other_files(std::string title, std::uint64_t number) {
+void History::push_other_files(std::string title, std::uint64_t number, Document document) {
   forget_redo();
-  Entry entry = entries_[cursor_];
-  entry.title = std::move(title);
-  entry.merge_key.clear();
-  entry.other_files = number;
+  Entry entry{std::move(title), {}, std::move(document), {}, number};
+  entry.keys = keys_of(entry.document, entries_[cursor_]);
   entries_.push_back(std::move(entry));
   ++cursor_;
   merging_ = false;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <functional>
 
+#include "app/console/kept_inputs.h"
 #include "app/document/carried_document.h"
 #include "app/document/words.h"
 #include "core/error.h"
@@ -19,6 +20,18 @@ bool same_files(const std::vector<SceneSource>& a, const std::vector<SceneSource
   return std::ranges::equal(a, b, [](const SceneSource& left, const SceneSource& right) {
     return left.id == right.id && (left.onto || left.place == right.place);
   });
+}
+
+// The document in which the scene's last file is an object, and what it replaces is deleted.
+Document with_fill(Document document, const OpenedScene& scene, const Flags& replaced) {
+  std::vector<std::uint8_t> deleted = *replaced;
+  for (std::size_t g = 0; document.deleted && g < deleted.size(); ++g) deleted[g] |= (*document.deleted)[g];
+  document.deleted = make_flags(std::move(deleted));
+  const ObjectId active = document.active;
+  ObjectItem& fill = add_object(&document, "Fill");
+  set_labels(&document, &fill, gaussians_of(scene, scene.files.back().id));
+  document.active = active;
+  return document;
 }
 
 // As what a step of placing a file is named.
@@ -166,6 +179,33 @@ void SceneFiles::perform(const AddScene& c) {
   change_files(std::move(files), "Adding " + scene_name(c.path), std::move(said));
 }
 
+void SceneFiles::perform(const KeepFill& c) {
+  ws_.require_scene();
+  const std::shared_ptr<const SceneWithout> without = calls_.without();
+  if (!without || without->patch.changes.given_back.empty())
+    throw Error("", "No hole is filled", "Fill one first: Ctrl+H");
+  if (ws_.document().objects.size() >= kMostObjects)
+    throw Error("", "There are too many objects", "Remove some");
+  refuse_written_inputs(c.path, ws_.scene->scene->files);
+  ws_.tasks.submit(TaskKind::kExport, [this, path = c.path, without, scene = ws_.scene,
+                                       up = ws_.document().up_world](const Job&) {
+    save_scene(path, with_cloud(*scene->scene, without->patch.changes.given_back), {}, SceneFormat::kPly,
+               {.up = up});
+    ws_.tasks.post([this, path, without, scene] {
+      if (scene != ws_.scene)
+        return ws_.say(Message::Kind::kInfo, path.string() + " is written; the scene has changed meanwhile");
+      std::vector<SceneSource> files = wanted_files();
+      files.push_back({.id = next_file_id_++, .path = path});
+      std::vector<std::uint8_t> replaced(ws_.gaussians(), 0);
+      for (const std::uint32_t g : without->patch.changes.ghosts) replaced[g] = 1;
+      change_files(std::move(files), "Keeping what fills the hole",
+                   {.done = "Fill kept; it is an object, and a file of the scene",
+                    .refused = {},
+                    .replaced = make_flags(std::move(replaced))});
+    });
+  });
+}
+
 void SceneFiles::perform(const PlaceScene& c) {
   std::vector<SceneSource> files = wanted_files();
   SceneSource& file = added_file(&files, c.file);
@@ -233,25 +273,27 @@ void SceneFiles::change_files(std::vector<SceneSource> files, const std::string&
 // meanwhile.
 void SceneFiles::carry_document(const std::shared_ptr<OpenedScene>& scene, const Said& said) {
   const TaskThread::Order order(TaskKind::kLoad, [this] { changing_to_.clear(); });
-  ws_.tasks.submit(
-      order, [this, scene, said, before = ws_.scene, history = ws_.history, serial = ws_.history.serial(),
-              decided = ws_.clean->decisions()](const Job& job) mutable {
-        job.progress("carrying labels", 0);
-        CarriedDocument carry(*before, *scene);
-        history.carry(std::ref(carry));
-        const std::vector<Flags> anyway = carry.carried(decided);
-        if (job.cancelled()) return;
-        ws_.tasks.post([this, scene, said, before, history = std::move(history), serial, decided, anyway] {
-          calls_.in_turn([this, scene, said, before, history, serial, decided, anyway] {
-            if (scene->files.front().id != ws_.scene->files.front().id) return;  // another one was opened
-            if (!is_last(*scene)) return say_refused(said.refused);
-            if (before != ws_.scene || serial != ws_.history.serial() || decided != ws_.clean->decisions())
-              return carry_document(scene, said);
-            files_changed(scene, history, said);
-            ws_.clean = std::make_shared<CleanObjects>(scene, anyway);
-          });
-        });
+  ws_.tasks.submit(order, [this, scene, said, before = ws_.scene, history = ws_.history,
+                           serial = ws_.history.serial(),
+                           decided = ws_.clean->decisions()](const Job& job) mutable {
+    job.progress("carrying labels", 0);
+    CarriedDocument carry(*before, *scene);
+    history.carry(std::ref(carry));
+    const std::vector<Flags> anyway = carry.carried(decided);
+    Said now = said;
+    now.replaced = carry.carried(said.replaced);
+    if (job.cancelled()) return;
+    ws_.tasks.post([this, scene, said, now, before, history = std::move(history), serial, decided, anyway] {
+      calls_.in_turn([this, scene, said, now, before, history, serial, decided, anyway] {
+        if (scene->files.front().id != ws_.scene->files.front().id) return;  // another one was opened
+        if (!is_last(*scene)) return say_refused(said.refused);
+        if (before != ws_.scene || serial != ws_.history.serial() || decided != ws_.clean->decisions())
+          return carry_document(scene, said);
+        files_changed(scene, history, now);
+        ws_.clean = std::make_shared<CleanObjects>(scene, anyway);
       });
+    });
+  });
 }
 
 void SceneFiles::files_changed(const std::shared_ptr<OpenedScene>& scene, History history, const Said& said) {
@@ -262,7 +304,10 @@ void SceneFiles::files_changed(const std::shared_ptr<OpenedScene>& scene, Histor
   undone_files_.clear();
   take(scene);
   ws_.history = std::move(history);
-  ws_.history.push_other_files(said.done.substr(0, said.done.find(';')), next_step_++);
+  ws_.history.push_other_files(
+      said.done.substr(0, said.done.find(';')), next_step_++,
+      said.replaced ? with_fill(ws_.document(), *scene, said.replaced) : ws_.document());
+  if (said.replaced) ws_.view.fill_hole = false;  // it is filled
   calls_.opened(true);
   const SceneSource* put = scene->file(std::exchange(put_before_view_, 0));
   const glm::vec3& up_world = ws_.document().up_world;

@@ -26,6 +26,8 @@ class SceneFiles {
     std::function<void(bool same)> opened;
     // Runs a function after the edits that were asked for before it.
     std::function<void(std::function<void()>)> in_turn;
+    // Returns the scene without the active object, its hole filled; null: that is not known.
+    std::function<std::shared_ptr<const SceneWithout>()> without;
   };
   SceneFiles(Workspace& workspace, Viewport& viewport, CutJobs& cuts, SavedWork& work, Calls calls);
 
@@ -52,6 +54,7 @@ class SceneFiles {
 
   void perform(const OpenScene& c);
   void perform(const AddScene& c);
+  void perform(const KeepFill& c);
   void perform(const PlaceScene& c);
   void perform(const BringHere& c);
   void perform(const RemoveScene& c);
@@ -78,6 +81,7 @@ class SceneFiles {
     // View that is then to show the whole scene, unless the user has left it; none: it stays.
     std::optional<CameraPose> seen_from = {};
     std::optional<glm::vec3> put_on_world = {};  // where an added file may have come to stand in that view
+    Flags replaced = {};  // what leaves where the last file fills a hole; null: it fills none
   };
   void change_files(std::vector<SceneSource> files, const std::string& doing, Said said);
   void say_refused(const std::vector<std::string>& refused);

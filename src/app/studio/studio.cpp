@@ -18,7 +18,8 @@ Studio::Studio(const StudioOptions& options)
       files_(
           ws_, viewport_, cuts_, work_,
           {[this](bool same) { scene_opened(same); },
-           [this](std::function<void()> next) { edits_.in_turn(std::move(next), Edits::OnCancel::kStays); }}),
+           [this](std::function<void()> next) { edits_.in_turn(std::move(next), Edits::OnCancel::kStays); },
+           [this] { return clean_edges_.without(); }}),
       exports_(ws_, viewport_),
       clean_edges_(ws_, viewport_, cuts_),
       seen_views_(ws_, viewport_, cuts_),

@@ -32,6 +32,8 @@ void use(UiContext& ui, const std::filesystem::path& path) {
       return ui.ask(SaveWork{path});
     case FilePurpose::kSnapshot:
       return ui.ask(SaveSnapshot{path, true});
+    case FilePurpose::kFill:
+      return ui.ask(KeepFill{path});
     case FilePurpose::kTurntable:
       ui.state.turntable.path = path.string();
       ui.state.turntable_open = true;
@@ -51,7 +53,8 @@ void use_choice(UiContext& ui, std::filesystem::path path, bool asked) {
     path += kind.extension;
     asked = false;
   }
-  const bool writes = purpose == FilePurpose::kSaveWork || purpose == FilePurpose::kSnapshot;
+  const bool writes =
+      purpose == FilePurpose::kSaveWork || purpose == FilePurpose::kSnapshot || purpose == FilePurpose::kFill;
   std::error_code ignored;
   if (writes && !asked && path != ui.studio.work().work_path() && std::filesystem::exists(path, ignored))
     ui.state.replace_asked = path;
@@ -190,6 +193,7 @@ void open_file_dialog(UiContext& ui, FilePurpose purpose) {
   if (purpose == FilePurpose::kSaveWork) files.name = stem + ".splatcut.json";
   if (purpose == FilePurpose::kSnapshot) files.name = stem + ".png";
   if (purpose == FilePurpose::kTurntable) files.name = stem + "_turntable";
+  if (purpose == FilePurpose::kFill) files.name = stem + "_fill.ply";
   std::filesystem::path start = files.folder;
   if (const std::filesystem::path field = field_of_caller(ui.state, purpose); !field.empty()) {
     files.name = field.filename().string();

@@ -167,8 +167,16 @@ UiRect hole_line(UiContext& ui, const ImVec2& at, float right) {
   const bool fills = ui.studio.view().fill_hole;
   const std::string text = fills ? ui.studio.finish().hole_text() : "It may leave a hole.";
   const char* label = fills ? "Leave the hole" : "Fill the hole";
-  const UiRect line = line_before_button(ui, at, right, text.c_str(), label);
+  const auto without = fills ? ui.studio.finish().without() : nullptr;
+  const bool keeps = without && !without->patch.changes.given_back.empty();
+  constexpr const char* kKeep = "Keep the fill";
+  const UiRect line = line_before_button(ui, at, right, text.c_str(),
+                                         keeps ? fmt::format("{}   {}", label, kKeep).c_str() : label);
   action_button(ui, Action::kFillHole, label);
+  if (!keeps) return line;
+  ImGui::SameLine(0, 8);
+  if (button(ui, kKeep, "As a file of the scene and an object of its own, to be repaired, moved or exported"))
+    open_file_dialog(ui, FilePurpose::kFill);
   return line;
 }
 

@@ -32,6 +32,8 @@ FileKind kind_of(FilePurpose purpose) {
       return {"Where should the turntable go?", "Choose", "", {"/"}};
     case FilePurpose::kExport:
       return {"Where should it go?", "Choose", "", extensions_of(written_formats())};
+    case FilePurpose::kFill:
+      return {"Keep what fills the hole, as a file of the scene", "Keep", ".ply", {".ply"}};
   }
   return {};
 }

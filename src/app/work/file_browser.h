@@ -8,7 +8,7 @@
 
 namespace splatcut {
 
-enum class FilePurpose { kOpen, kAdd, kSaveWork, kSnapshot, kTurntable, kExport };
+enum class FilePurpose { kOpen, kAdd, kSaveWork, kSnapshot, kTurntable, kExport, kFill };
 
 // What a dialog for that is called and lists.
 struct FileKind {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
 
 #include "small_still_life.h"
@@ -170,7 +171,7 @@ TEST_CASE("cut --fill surface: the rest ends with what is invented, other rows s
   const Workplace& place = life.place;
   const std::string cut = "--click " + life.click_on("mug") + " --edges keep --overwrite -o ";
   REQUIRE(place.run(life.cut(cut + "hole")).code == 0);
-  REQUIRE(place.run(life.cut(cut + "filled --fill surface")).code == 0);
+  REQUIRE(place.run(life.cut(cut + "filled --fill surface --write rest,labels,fill")).code == 0);
   const json report = json::parse(place.text("filled/report.json")), fill = report["edges"]["fill"];
   CHECK_FALSE(json::parse(place.text("hole/report.json"))["edges"].contains("fill"));
   REQUIRE(fill["filled"] == true);
@@ -191,6 +192,16 @@ TEST_CASE("cut --fill surface: the rest ends with what is invented, other rows s
   CHECK(place.text("filled/labels.u8") == place.text("hole/labels.u8"));
   const Result again = place.run("info filled/rest.ply --json");
   CHECK(json::parse(again.out)["gaussians"] == rows);
+  // What is invented stands in a file of its own, too.
+  const std::string alone = rows_of(place.text("filled/fill.ply"));
+  REQUIRE(alone.size() % invented == 0);
+  const auto places = [&](const std::string& bytes, std::size_t row, std::size_t stride) {
+    std::multiset<std::string> all;
+    for (; row * stride < bytes.size(); ++row) all.insert(bytes.substr(row * stride, 3 * sizeof(float)));
+    return all;
+  };
+  CHECK(places(alone, 0, alone.size() / invented) == places(rest, rows - invented, row_bytes));
+  CHECK_FALSE(place.exists("hole/fill.ply"));
 }
 
 TEST_CASE(

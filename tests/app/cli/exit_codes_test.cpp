@@ -116,6 +116,7 @@ TEST_CASE("wrong usage exits with 2, a thing that cannot be done with 1 and a se
   refused("render " + life.scene + " -o a.png --camera-pos 1,2", {"--camera-pos"});
   refused(view + "--cameras made/cameras.json --camera-fov 40", {"--camera-fov", "has its own"});
   refused(life.cut("--click 1,1 --fill surface --write object -o cut"), {"--fill surface", "rest.ply"});
+  refused(life.cut("--click 1,1 --write rest,fill -o cut"), {"--write fill", "Add --fill surface"});
   refused(view + "--cameras made/cameras.json --camera 0 --camera-pos 1,2,3 --camera-target 0,0,0",
           {"--camera and --camera-pos name two views"});
   refused("render " + life.scene + " -o a.png --cameras none.json", {"none.json"});

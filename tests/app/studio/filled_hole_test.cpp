@@ -191,3 +191,47 @@ TEST_CASE("hands: a click on what is invented is one on what lies below it") {
   CHECK(hands.studio().labels(hands.studio().document().active)[static_cast<std::size_t>(hit->gaussian)] ==
         0);
 }
+
+TEST_CASE("hands: what fills a hole is kept as an object of its own, in one step that can be undone") {
+  const ScratchFolder folder("kept_fill");
+  Hands hands = hands_on_sample();
+  Studio& studio = hands.studio();
+  keep_edges(hands);
+  studio.apply(KeepFill{folder / "fill.ply"});
+  CHECK(hands.said().starts_with("No hole is filled"));
+  CHECK_FALSE(std::filesystem::exists(folder / "fill.ply"));
+  const SurfacePatch patch = filled_without_window(hands);
+  const std::size_t before = studio.scene()->cloud->size(), invented = patch.changes.given_back.size();
+  const auto object = studio.labels(studio.document().active);
+
+  press(hands, Action::kFillHole);
+  const Image<glm::vec3> filled = studio.viewport().picture()->frames[0]->colour;
+  studio.apply(KeepFill{folder / "fill.ply"});
+  REQUIRE(hands.app.settle());
+  REQUIRE(studio.document().objects.size() == 2);
+  const ObjectItem& fill = studio.document().objects[1];
+  CHECK(fill.name == "Fill");
+  CHECK(studio.document().active == studio.document().objects[0].id);
+  const auto kept = studio.labels(fill.id);
+  CHECK(kept.size() == before + invented);
+  CHECK(count_flags(kept) == invented);
+  CHECK(count_flags(*studio.document().deleted) == patch.changes.ghosts.size());
+  CHECK_FALSE(studio.view().fill_hole);
+  CHECK(studio.view().display == DisplayMode::kHide);
+  const Image<glm::vec3>& now = studio.viewport().picture()->frames[0]->colour;
+  double error = 0;
+  for (std::size_t i = 0; i < now.pixels().size(); ++i)
+    error = std::max(error, static_cast<double>(glm::length(now.pixels()[i] - filled.pixels()[i])));
+  CHECK(error < 0.05);
+  CHECK(load_scene(folder / "fill.ply").cloud.size() == invented);
+
+  hands.app.key('Z', {.ctrl = true});
+  REQUIRE(hands.app.settle());
+  CHECK(studio.document().objects.size() == 1);
+  CHECK(studio.scene()->cloud->size() == before);
+  CHECK(studio.labels(studio.document().active) == object);
+  CHECK(std::filesystem::exists(folder / "fill.ply"));
+  hands.app.key('Y', {.ctrl = true});
+  REQUIRE(hands.app.settle());
+  CHECK(studio.labels(studio.document().objects[1].id) == kept);
+}
