@@ -268,6 +268,17 @@ void CameraController::go_to(const Camera& camera) {
   start(target);
 }
 
+void CameraController::go_to_standing(const Camera& camera) {
+  constexpr float kSays = 0.2f;  // of up across the view axis: straight down, no side is up
+  go_to(camera);
+  const glm::vec2 up_right_down(camera.camera_from_world_rotation * up_world_);
+  const bool stands = -up_right_down.y >= std::abs(up_right_down.x);
+  if (stands || glm::length(up_right_down) < kSays) return;
+  const bool on_side = std::abs(up_right_down.x) > up_right_down.y;
+  if (on_side) target_->fov_y_rad = 2 * std::atan(0.5f * static_cast<float>(camera.width_px) / camera.fx_px);
+  turn_upright(&*target_);
+}
+
 void CameraController::keep_opening(const glm::vec3& scenes_up_world) {
   opening_ = goal();
   opening_up_world_ = glm::normalize(scenes_up_world);

@@ -72,6 +72,8 @@ class CameraController {
   std::vector<glm::quat> directions_around() const;
   void frame_scene() { frame(scene_); }
   void go_to(const Camera& camera);  // takes its exact pose and field of view
+  // The same, but a picture that was taken on its side or upside down stands upright, as high as it is wide.
+  void go_to_standing(const Camera& camera);
   // Keeps where a transition ends as the view in which the scene opened, to which go_to_opening() goes back:
   // upright where the up direction is another one than the scene's then.
   void keep_opening(const glm::vec3& scenes_up_world);

@@ -58,7 +58,7 @@ void Viewport::reset() {
   change_scene();
   camera_.reset(ws_.scene->bounds, ws_.document().up_world);
   const FileViews& views = ws_.scene->views();
-  if (!views.cameras.empty() || views.first_view) camera_.go_to(views.reference);
+  if (!views.cameras.empty() || views.first_view) camera_.go_to_standing(views.reference);
   camera_.finish_transition();
   camera_.keep_opening(ws_.scene->views().up_world);
 }

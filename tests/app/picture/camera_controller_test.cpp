@@ -4,6 +4,9 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+#include <glm/gtc/quaternion.hpp>
 #include <vector>
 
 using namespace splatcut;
@@ -56,4 +59,29 @@ TEST_CASE("camera: the wheel and coming nearer end before the near plane hides w
   const float before = depth_of(camera, thing);
   camera.zoom(1, thing);
   CHECK(depth_of(camera, thing) == doctest::Approx(before));
+}
+
+TEST_CASE("camera: a picture taken on its side, or upside down, opens upright and shows as much") {
+  const Camera level = look_at({3, -20, 4}, {0, 0, 1}, {0, 0, 1}, 0.5f, 400, 200);
+  for (const int quarters : {0, 1, 2, 3}) {
+    CAPTURE(quarters);
+    Camera held = level;
+    const float turn = glm::half_pi<float>() * static_cast<float>(quarters);
+    held.camera_from_world_rotation =
+        glm::mat3_cast(glm::angleAxis(turn, glm::vec3(0, 0, 1))) * level.camera_from_world_rotation;
+    held.camera_from_world_translation =
+        glm::mat3_cast(glm::angleAxis(turn, glm::vec3(0, 0, 1))) * level.camera_from_world_translation;
+    CameraController camera;
+    camera.reset({{-50, -50, -50}, {50, 50, 50}}, {0, 0, 1});
+    camera.go_to_standing(held);
+    camera.finish_transition();
+    const Camera shown = camera.camera(400, 300);
+    const glm::vec3 up = shown.camera_from_world_rotation * glm::vec3(0, 0, 1);
+    CHECK(up.y < -0.9f);
+    CHECK(std::abs(up.x) < 1e-4f);
+    CHECK(glm::distance(shown.centre_world(), level.centre_world()) < 1e-3f);
+    CHECK(glm::dot(shown.forward_world(), level.forward_world()) > 0.9999f);
+    const float across = 2 * std::atan(std::tan(0.25f) * 2);  // of the picture's width
+    CHECK(camera.pose().fov_y_rad == doctest::Approx(quarters % 2 == 1 ? across : 0.5f));
+  }
 }
