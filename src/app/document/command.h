@@ -362,6 +362,8 @@ struct OpenScene {
   std::vector<std::filesystem::path> added = {};  // further scenes, see AddScene
   // Level of detail, as in LoadOptions; without it the finest that the free memory holds.
   std::optional<unsigned> lod = {};
+  std::filesystem::path cameras = {};  // in place of those beside the scene; a work file holds its own
+  std::string camera = {};             // which of them to begin with, by name or number; empty: the first
   static constexpr bool at_once = true;
 };
 struct AddScene {
