@@ -79,6 +79,7 @@ void Clicks::perform(const AddStroke& c) {
   if (on && ws_.view.display == DisplayMode::kWhole && c.stroke.is_click() && viewport_.panes() == 1)
     viewport_.camera().set_orbit_centre(on->position_world);
   if (!held.empty() || !any_mark(*after.active_object())) ws_.tools.disarm_scale();
+  if (!held.empty()) cuts_.note_so_already(cut_key(after, *after.active_object()));
   edits_.push(c.title(), std::move(after), {}, held.empty() ? message : held);
 }
 

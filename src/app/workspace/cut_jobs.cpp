@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "app/document/words.h"
 #include "app/picture/cut_pictures.h"
 #include "app/picture/cut_sentences.h"
 #include "core/error.h"
@@ -341,13 +342,20 @@ void CutJobs::finish(const Order& order, CutRun run, const Flags& labels) {
     return ws_.say(Message::Kind::kRefused, name + ": " + result->reason);
   const bool stroked = is_of_stroke(ws_.history);
   const Flags before = cut_already && !stroked ? shown : labels_before(order, shown);
-  const std::string changed = what_changed(*before, *labels_now(), seconds);
   if (stroked && *before == *labels_now() && count_flags(*before) > 0) {
     if (CutRun* kept = known_run(order.object, order.key)) kept->changed_nothing = true;
-    return ws_.say(
-        Message::Kind::kRefused,
-        fmt::format("{}: {}. Click nearer to what is wrong, come nearer, or draw over it", name, changed));
+    const bool adds = last_stroke(order.request.strokes)->label == SeedLabel::kObject;
+    const char* why =
+        so_already_ != order.key
+            ? "that changed nothing. Click nearer to what is wrong, come nearer, or draw over it"
+        : adds ? "that place belongs to it already. To take more, click what is missing"
+               : "that place does not belong to it as it is. To remove more, right-click a piece of it";
+    const bool larger = so_already_ == order.key && result->size + 1 < result->sizes;
+    return ws_.say(Message::Kind::kRefused,
+                   fmt::format("{}: {}, as before: {}{}", name, gaussians_text(count_flags(*before)), why,
+                               larger ? ", or press + for a larger part" : ""));
   }
+  const std::string changed = what_changed(*before, *labels_now(), seconds);
   const std::string box =
       *before == *labels_now() ? "" : added_by_box(ws_.history, order.object, ws_.context());
   const std::string shared = box + shared_with(ws_.document(), order.object, labels_of_item);
