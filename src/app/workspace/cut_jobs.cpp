@@ -170,13 +170,13 @@ bool CutJobs::take_known(const Order& order) {
   const auto ahead = std::ranges::find_if(ahead_, is_it);
   const auto before = std::ranges::find_if(known_, is_it);
   if (ahead == ahead_.end() && before == known_.end()) return false;
-  CutRun run = ahead != ahead_.end() ? ahead->run : before->run;
+  CutRun run = before != known_.end() ? before->run : ahead->run;
   run.first_mask_ms = run.total_ms = 0;  // what was there cost nothing
   run.changed_nothing = false;
-  run.views_labels.reset();
-  run.doubts = doubts_of(*run.result);  // without that on its sides, which comes with their pictures
   const std::shared_ptr<const CutResult> result = run.result;
+  const bool drawn = run.views_drawn && !run.views.empty();
   finish(order, std::move(run), make_flags(result->labels));
+  if (drawn) return true;  // renew_views() draws them again where they are to show another change
   ws_.tasks.submit(TaskKind::kCut,
                    [this, order, result](const Job& job) { look_around(order, *result, job); });
   return true;
@@ -315,9 +315,9 @@ Flags CutJobs::labels_before(const Order& order, const Flags& shown) const {
 void CutJobs::finish(const Order& order, CutRun run, const Flags& labels) {
   if (!runs(order)) return;
   const CutRun& now = running_->run;
-  run.views = now.views;
-  for (ViewCard& card : run.views) card.doubt.clear();  // it was about another cut
-  run.views_drawn = false;
+  if (!run.views_drawn) run.views = now.views;
+  for (ViewCard& card : run.views)
+    if (!run.views_drawn) card.doubt.clear();  // it was about another cut
   run.stages = run.result->stages.empty() ? now.stages : run.result->stages;
   run.first_mask_ms = now.first_mask_ms == 0 ? run.total_ms : now.first_mask_ms;
   const std::shared_ptr<const CutResult> result = run.result;
