@@ -342,25 +342,24 @@ void CutJobs::finish(const Order& order, CutRun run, const Flags& labels) {
     return ws_.say(Message::Kind::kRefused, name + ": " + result->reason);
   const bool stroked = is_of_stroke(ws_.history);
   const Flags before = cut_already && !stroked ? shown : labels_before(order, shown);
+  const bool so_already = so_already_ == order.key;
+  const std::string already = so_already ? why_so_already(order.request, *result) : "";
   if (stroked && *before == *labels_now() && count_flags(*before) > 0) {
     if (CutRun* kept = known_run(order.object, order.key)) kept->changed_nothing = true;
-    const bool adds = last_stroke(order.request.strokes)->label == SeedLabel::kObject;
-    const char* why =
-        so_already_ != order.key
-            ? "that changed nothing. Click nearer to what is wrong, come nearer, or draw over it"
-        : adds ? "that place belongs to it already. To take more, click what is missing"
-               : "that place does not belong to it as it is. To remove more, right-click a piece of it";
-    const bool larger = so_already_ == order.key && result->size + 1 < result->sizes;
     return ws_.say(Message::Kind::kRefused,
-                   fmt::format("{}: {}, as before: {}{}", name, gaussians_text(count_flags(*before)), why,
-                               larger ? ", or press + for a larger part" : ""));
+                   fmt::format("{}: {}, as before: {}", name, gaussians_text(count_flags(*before)),
+                               so_already ? already
+                                          : "that changed nothing. Click nearer to what is wrong, come "
+                                            "nearer, or draw over it"));
   }
   const std::string changed = what_changed(*before, *labels_now(), seconds);
   const std::string box =
       *before == *labels_now() ? "" : added_by_box(ws_.history, order.object, ws_.context());
   const std::string shared = box + shared_with(ws_.document(), order.object, labels_of_item);
-  const std::string hint =
-      ws_.tools.scale_armed() ? wheel_hint(order.request, *result, *before, *labels_now()) : "";
+  const std::string hint = so_already && changed_little(*before, *labels_now()) ? ". But " + already
+                           : ws_.tools.scale_armed()
+                               ? wheel_hint(order.request, *result, *before, *labels_now())
+                               : "";
   ws_.say(doubt.empty() ? Message::Kind::kDone : Message::Kind::kInfo,
           fmt::format("{}: {}{}{}", name, changed, shared, doubt.empty() ? hint : ". But " + doubt));
 }
