@@ -37,6 +37,11 @@ void run_view(ViewArguments args) {
   if (is_missing(args.window.open) &&
       (is_work_file(args.window.open) || std::ranges::all_of(args.window.added, is_missing)))
     throw Error(args.window.open.string(), "there is no such file or folder");
+  if (is_missing(args.window.cameras))
+    throw Error(args.window.cameras.string(), "there is no such file or folder");
+  if (is_work_file(args.window.open) && !(args.window.cameras.empty() && args.window.camera.empty()))
+    throw Error(args.window.open.string(), "is saved work, which has its own cameras",
+                "Leave --cameras and --camera out");
   const auto is_spz = [](const std::filesystem::path& path) {
     const SceneFormat* format = find_format(path);
     return format && *format == SceneFormat::kSpz;
@@ -61,9 +66,17 @@ void add_view_command(CLI::App& program, const CommonOptions& common) {
   auto args = std::make_shared<ViewArguments>();
   CLI::App& command = *program.add_subcommand("view", "Open the window (splatcut SCENE does the same)");
   command.footer("Example: splatcut view scene.ply");
-  command.add_option("scene", args->window.open, "Scene file or .splatcut.json");
+  CLI::Option* scene = command.add_option("scene", args->window.open, "Scene file or .splatcut.json");
   command.add_option("more", args->window.added,
                      "Further scenes in the same window, side by side on what the first view shows");
+  command
+      .add_option("--cameras", args->window.cameras,
+                  "cameras.json, transforms.json or a COLMAP folder, in place of cameras beside the scene")
+      ->needs(scene);
+  command
+      .add_option("--camera", args->window.camera,
+                  "Which of the cameras to begin with: its name, or its number from 0")
+      ->needs(scene);
   args->how.add_to(command);
   command
       .add_option("--renderer", args->renderer,

@@ -131,6 +131,7 @@ struct SelectColour {
   glm::vec3 colour;  // base colour, [0, 1]
   float tolerance;   // largest difference in a channel, [0, 1]
   SetOperation operation = SetOperation::kAdd;
+  bool operator==(const SelectColour&) const = default;
 };
 struct PickColour {  // selects all Gaussians of this one's colour, within ViewState::colour_tolerance
   std::int32_t gaussian;
@@ -148,9 +149,11 @@ struct SelectRange {
   Property property;
   float low, high;  // limits, both included, in units of property_values()
   SetOperation operation = SetOperation::kAdd;
+  bool operator==(const SelectRange&) const = default;
 };
-struct ShowRange {                   // outlines what a SelectRange would be about, and selects nothing
-  std::optional<SelectRange> range;  // none: no outline
+using SelectRangeOrColour = std::variant<SelectRange, SelectColour>;
+struct ShowRange {                           // outlines what that would be about, and selects nothing
+  std::optional<SelectRangeOrColour> range;  // none: no outline
   static constexpr bool at_once = true;
 };
 enum class SelectionEdit { kAll, kNone, kInvert, kGrow, kShrink, kLargestPart, kRemoveFloaters };
@@ -362,6 +365,8 @@ struct OpenScene {
   std::vector<std::filesystem::path> added = {};  // further scenes, see AddScene
   // Level of detail, as in LoadOptions; without it the finest that the free memory holds.
   std::optional<unsigned> lod = {};
+  std::filesystem::path cameras = {};  // in place of those beside the scene; a work file holds its own
+  std::string camera = {};             // which of them to begin with, by name or number; empty: the first
   static constexpr bool at_once = true;
 };
 struct AddScene {

@@ -26,8 +26,7 @@ bool changes_edges(const EdgesKnown& edges) {
 std::string edges_change_text(const ExportChoice& choice, const EdgesKnown& edges) {
   if (!changes_edges(edges)) return {};
   if (choice.what == ExportWhat::kRest)
-    return "With clean edges, what is left of the object leaves, too; what was cut off it and is not its own "
-           "stays.";
+    return "With clean edges, faint remains of the object go, too, and what was cut off its edges stays.";
   if (edges.unknown > 0) return "Clean edges leave out what the scene hides.";
   if (edges.left_out == 0) return "Clean edges change some Gaussians, and leave out none.";
   return fmt::format("Clean edges leave out {} that the scene hides.", gaussians_text(edges.left_out));
@@ -79,7 +78,8 @@ void EdgesKnown::count(const std::optional<CleanReport>& report, const std::stri
     left_out += report->left;
   } else if (kept++ == 0) {
     kept_of = name;
-    why_kept = report->views > 0 ? report->short_reason() : report->reason;
+    why_kept = report->views > 0 ? report->short_reason() + ". Correct the selection, or clean anyway"
+                                 : report->reason;
   }
 }
 
@@ -108,9 +108,9 @@ std::string amount_text(const ExportChoice& choice, std::size_t gaussians, const
 
 std::string edges_stay_text(const EdgesKnown& edges) {
   if (!edges.clean || edges.kept == 0) return {};
-  if (edges.kept == 1) return fmt::format("Edges of {} stay: {}.", edges.kept_of, edges.why_kept);
-  return fmt::format("Edges of {} objects stay, {} the first: {}.", edges.kept, edges.kept_of,
-                     edges.why_kept);
+  const std::string whose =
+      edges.kept == 1 ? edges.kept_of : fmt::format("{} objects ({} the first)", edges.kept, edges.kept_of);
+  return fmt::format("Ticked, but edges of {} cannot be cleaned: {}.", whose, edges.why_kept);
 }
 
 std::string changes_text(const ExportChoice& choice, const EdgesKnown& edges, const HoleKnown& hole) {

@@ -11,6 +11,7 @@
 #include "core/byte_hash.h"
 #include "core/error.h"
 #include "scene/camera/camera_file.h"
+#include "scene/camera/camera_names.h"
 #include "scene/camera/common_up.h"
 #include "scene/cloud/scene_memory.h"
 #include "scene/cloud/strays.h"
@@ -27,6 +28,14 @@ Camera view_of_all(const Box& bounds, const glm::vec3& up_world) {
   return view_of_all(bounds, up_world, CameraPose{}.fov_y_rad, kWidth, kHeight);
 }
 
+// Of the capture: as asked for, else those beside the file. remark: a sentence about what was read, or empty.
+std::vector<Camera> cameras_of(const SceneSource& file, const glm::dvec3& origin, std::string* remark) {
+  if (file.cameras.empty()) return cameras_near(file.path, origin, remark);
+  std::vector<Camera> cameras = load_cameras(file.cameras, remark, origin);
+  if (cameras.empty()) throw Error(file.cameras.string(), "holds no camera");
+  return cameras;
+}
+
 // Whether cameras that lie beside a file stand otherwise than the file says, as where it was turned when it
 // was written: they are not its own.
 bool stand_otherwise(const std::vector<Camera>& cameras, const std::optional<glm::vec3>& up) {
@@ -35,12 +44,19 @@ bool stand_otherwise(const std::vector<Camera>& cameras, const std::optional<glm
 }
 
 // Without cameras the first view is guessed from the splats, and up where the file does not say it.
-FileViews views_of(const Scene& scene, const Box& bounds, std::vector<Camera> cameras, const Job& job) {
+FileViews views_of(const SceneSource& file, const Scene& scene, std::vector<Camera> cameras, const Job& job) {
+  const Box& bounds = file.bounds;
   FileViews views;
   views.cameras = std::move(cameras);
+  if (!file.camera.empty() && views.cameras.empty())
+    throw Error("--camera " + file.camera, "names a camera, but the scene has none",
+                "Give them with --cameras");
   if (!views.cameras.empty()) {
     views.up_world = scene.up ? *scene.up : common_up(views.cameras);
-    views.reference = views.cameras.front();
+    views.reference = file.camera.empty()
+                          ? views.cameras.front()
+                          : find_camera(views.cameras, file.camera,
+                                        (file.cameras.empty() ? file.path : file.cameras).string());
     return views;
   }
   views.up_is_guess = !scene.up;
@@ -63,13 +79,13 @@ void choose_level(SceneSource* file, std::vector<std::string>* remarks) {
 }
 
 Scene load(SceneSource* file, const OpenedScene* before, const Job& job, std::vector<std::string>* remarks) {
-  std::string no_cameras;
-  std::vector<Camera> cameras = cameras_near(file->path, {}, &no_cameras);
+  std::string of_cameras;
+  std::vector<Camera> cameras = cameras_of(*file, glm::dvec3(0), &of_cameras);
   choose_level(file, remarks);
   Scene scene = load_scene(file->path, {file->spz_axes, cameras, file->lod.value_or(0), file->origin}, job);
   if (job.cancelled()) return scene;
-  if (scene.origin != glm::dvec3(0)) cameras = cameras_near(file->path, scene.origin);
-  if (stand_otherwise(cameras, scene.up)) {
+  if (scene.origin != glm::dvec3(0)) cameras = cameras_of(*file, scene.origin, nullptr);
+  if (file->cameras.empty() && stand_otherwise(cameras, scene.up)) {
     cameras.clear();
     file->cameras_are_others = true;
   }
@@ -79,7 +95,7 @@ Scene load(SceneSource* file, const OpenedScene* before, const Job& job, std::ve
     throw Error(scene.path.string(), "was changed by another program since it was opened", "Open it again");
   const bool asked = file->spz_axes.has_value();
   const bool said = file->levels.gaussians.size() > 1;  // that levels are left out
-  for (const std::string& remark : {said ? std::string() : scene.left_out, no_cameras, scene.oddity,
+  for (const std::string& remark : {said ? std::string() : scene.left_out, of_cameras, scene.oddity,
                                     asked ? std::string() : scene.axes_note})
     if (!known && !remark.empty()) remarks->push_back(remark);
   file->path = scene.path;
@@ -89,9 +105,8 @@ Scene load(SceneSource* file, const OpenedScene* before, const Job& job, std::ve
   file->file_rows = scene.file_rows;
   file->gaussians = scene.cloud.size();
   file->bounds = framed_bounds(scene.cloud);
-  file->views =
-      known ? known->views
-            : std::make_shared<const FileViews>(views_of(scene, file->bounds, std::move(cameras), job));
+  file->views = known ? known->views
+                      : std::make_shared<const FileViews>(views_of(*file, scene, std::move(cameras), job));
   return scene;
 }
 

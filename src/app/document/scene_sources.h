@@ -53,6 +53,8 @@ struct SceneSource {
   // Axes to read a .spz with, as in LoadOptions. After loading: the axes taken, if the file does not say
   // them.
   std::optional<SpzAxes> spz_axes;
+  std::filesystem::path cameras = {};  // file or folder that was asked for; empty: those beside the scene
+  std::string camera = {};             // the one to begin with, by name or number; empty: the first
   // Level of detail to read, of a file that has several; after loading: the level read.
   std::optional<unsigned> lod;
   // Taken off positions, as in LoadOptions; after loading: that of the scene, which is the first file's.

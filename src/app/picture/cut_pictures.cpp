@@ -298,6 +298,14 @@ void keep_doubts(const std::vector<ViewCard>& before, const std::vector<std::uin
   }
 }
 
+void keep_looks(const std::vector<ViewCard>& before, std::vector<ViewCard>* cards) {
+  for (ViewCard& card : *cards)
+    card.looked_at |= std::ranges::any_of(before, [&](const ViewCard& old) {
+      return old.looked_at &&
+             glm::dot(old.camera.forward_world(), card.camera.forward_world()) >= kSameDirection;
+    });
+}
+
 bool looks_at(const Camera& camera, const ViewCard& card, const GaussianCloud& cloud) {
   if (card.open.empty() || glm::dot(camera.forward_world(), card.camera.forward_world()) < kSameDirection)
     return false;

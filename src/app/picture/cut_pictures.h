@@ -48,6 +48,9 @@ std::vector<ViewCard> in_places_of(const std::vector<ViewCard>& before, std::vec
 void keep_doubts(const std::vector<ViewCard>& before, const std::vector<std::uint8_t>& labels,
                  std::vector<ViewCard>* cards);
 
+// Sides of the same labels that somebody looked at stay looked at.
+void keep_looks(const std::vector<ViewCard>& before, std::vector<ViewCard>* cards);
+
 // Whether the camera shows, from the card's side, what the card is in doubt of.
 bool looks_at(const Camera& camera, const ViewCard& card, const GaussianCloud& cloud);
 

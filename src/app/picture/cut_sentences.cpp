@@ -31,19 +31,30 @@ bool is_of_stroke(const History& history) {
          (title.starts_with("Click") || title.starts_with("Scribble"));
 }
 
-std::string wheel_hint(const CutRequest& request, const CutResult& result,
-                       const std::vector<std::uint8_t>& before, const std::vector<std::uint8_t>& after) {
+bool changed_little(const std::vector<std::uint8_t>& before, const std::vector<std::uint8_t>& after) {
   constexpr double kLittle = 0.02;  // of the object
-  if (result.sizes < 2 || first_stroke(request.strokes) == last_stroke(request.strokes))
-    return unsure(result) ? ". Not all of it? Turn the wheel for another size" : "";
   std::size_t is = 0, changed = 0;
   for (std::size_t g = 0; g < after.size(); ++g) {
     is += after[g];
     changed += before[g] != after[g];
   }
+  return static_cast<double>(changed) < kLittle * static_cast<double>(is);
+}
+
+std::string why_so_already(const CutRequest& request, const CutResult& result) {
+  const bool adds = last_stroke(request.strokes)->label == SeedLabel::kObject;
+  return std::string(adds ? "that place belongs to it already. To take more, click what is missing"
+                          : "that place does not belong to it as it is. To remove more, right-click a piece "
+                            "of it") +
+         (result.size + 1 < result.sizes ? ", or press + for a larger part" : "");
+}
+
+std::string wheel_hint(const CutRequest& request, const CutResult& result,
+                       const std::vector<std::uint8_t>& before, const std::vector<std::uint8_t>& after) {
+  if (result.sizes < 2 || first_stroke(request.strokes) == last_stroke(request.strokes))
+    return unsure(result) ? ". Not all of it? Turn the wheel for another size" : "";
   const bool largest = result.size + 1 == result.sizes;
-  if (static_cast<double>(changed) < kLittle * static_cast<double>(is))
-    return largest ? "" : ". Too little? Turn the wheel";
+  if (changed_little(before, after)) return largest ? "" : ". Too little? Turn the wheel";
   if (result.size == 0) return ". Too little? Turn the wheel";
   return largest ? ". Too much? Turn the wheel" : ". Too much or too little? Turn the wheel";
 }

@@ -18,6 +18,12 @@ std::string what_changed(const std::vector<std::uint8_t>& before, const std::vec
 
 bool is_of_stroke(const History& history);  // the last that was done is a stroke
 
+// Less of the object than can be seen. before, after: as above.
+bool changed_little(const std::vector<std::uint8_t>& before, const std::vector<std::uint8_t>& after);
+
+// Of a last click that asks for what is so already: that it does, and what to do for more.
+std::string why_so_already(const CutRequest& request, const CutResult& result);
+
 // What the wheel can do about a click that took the wrong size; empty: there is no other. What changed too
 // little to be seen was not too much. before, after: as above.
 std::string wheel_hint(const CutRequest& request, const CutResult& result,

@@ -139,9 +139,12 @@ Styles styled(const StyleOrder& order, const Styles& before, LabelCache* labels)
     out.floaters = count_flags(found);
     style.highlight = make_flags(std::move(found));
   } else if (order.range) {
-    const SelectRange& range = *order.range;
-    style.highlight = make_flags(
-        select_range(property_values(*order.cloud, range.property, &order.camera), range.low, range.high));
+    const auto* colour = std::get_if<SelectColour>(&*order.range);
+    const auto* range = std::get_if<SelectRange>(&*order.range);
+    style.highlight =
+        make_flags(colour ? select_colour(*order.cloud, colour->colour, colour->tolerance)
+                          : select_range(property_values(*order.cloud, range->property, &order.camera),
+                                         range->low, range->high));
   }
   const bool compares = order.view.display == DisplayMode::kBeforeAfter;
   const bool two = order.view.display == DisplayMode::kSideBySide || compares;

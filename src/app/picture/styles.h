@@ -27,9 +27,9 @@ struct StyleOrder {
   std::shared_ptr<const std::vector<float>> likelihood;  // likelihood of the active object, for the heat map
   std::shared_ptr<const CleanObjects> clean;
   ViewState view;
-  float pixels_per_point = 1;        // pixels per logical pixel
-  bool floaters = false;             // true: floaters of the active object are outlined
-  std::optional<SelectRange> range;  // outlined if there are no floaters; depths are the camera's
+  float pixels_per_point = 1;                // pixels per logical pixel
+  bool floaters = false;                     // true: floaters of the active object are outlined
+  std::optional<SelectRangeOrColour> range;  // outlined if there are no floaters; depths are the camera's
   Camera camera;
   std::shared_ptr<const SeenObject> seen = {};  // of some object, for the heat of the object alone
 };

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/document/selection.h"
 #include "core/error.h"
 #include "scene/raster/rasterizer.h"
 
@@ -79,6 +80,7 @@ void Clicks::perform(const AddStroke& c) {
   if (on && ws_.view.display == DisplayMode::kWhole && c.stroke.is_click() && viewport_.panes() == 1)
     viewport_.camera().set_orbit_centre(on->position_world);
   if (!held.empty() || !any_mark(*after.active_object())) ws_.tools.disarm_scale();
+  if (!held.empty()) cuts_.note_so_already(cut_key(after, *after.active_object()));
   edits_.push(c.title(), std::move(after), {}, held.empty() ? message : held);
 }
 
@@ -187,11 +189,15 @@ void Clicks::perform(const StepScale& c) {
 
 // Whether the next click is thought about: by a click tool, in a still picture, while no cut runs.
 bool Clicks::asks_ahead() const {
+  return tool_of(ws_.view.tool).clicks_object && can_ask();
+}
+
+bool Clicks::can_ask() const {
   const ObjectItem* active = ws_.document().active_object();
   const bool has_room = active || ws_.document().objects.size() < kMostObjects;
-  if (!ws_.session || !has_room || !tool_of(ws_.view.tool).clicks_object || viewport_.panes() != 1 ||
-      ws_.view.heat || ws_.tools.dragging() || viewport_.floaters_shown() || viewport_.range_shown() ||
-      cuts_.cutting() != 0 || (active && active->locked))
+  if (!ws_.session || !has_room || viewport_.panes() != 1 || ws_.view.heat || ws_.tools.dragging() ||
+      viewport_.floaters_shown() || viewport_.range_shown() || cuts_.cutting() != 0 ||
+      (active && active->locked))
     return false;
   return viewport_.style_current() && viewport_.full_picture_of(viewport_.pane_camera());
 }
@@ -206,19 +212,31 @@ const StrokeMark* Clicks::pointed_mark() const {
 
 // Nothing without a hit under the pointer.
 std::optional<Clicks::HoverAsk> Clicks::hover_wanted() const {
+  const bool by_colour = tool_of(ws_.view.tool).selects == Tool::Selects::kColours;
   // On the dot of the last click the sizes of it are outlined, not what the next one changes.
-  if (!pointer_inside_ || !asks_ahead() || pointed_mark() || (on_last_dot() && sizes())) return {};
+  if (!pointer_inside_ || (by_colour ? !can_ask() : !asks_ahead()) || pointed_mark() ||
+      (on_last_dot() && sizes()))
+    return {};
+  // Who turned outlines off wants to see the result as it is.
+  if (!ws_.view.outline && ws_.view.display != DisplayMode::kWhole) return {};
   const ObjectItem* active = ws_.document().active_object();
   const Camera camera = viewport_.pane_camera();
   const auto hit = viewport_.pick(ws_.tools.pointer_px());
   if (!hit) return {};
+  const glm::vec2 pixel = glm::floor(ws_.tools.pointer_px());
+  if (by_colour) {
+    const SetOperation operation =
+        ws_.tools.overlay(ws_.view, camera, viewport_.pixels_per_point()).operation;
+    return HoverAsk{ws_.history.serial(), ws_.view_serial, camera, pixel, operation != SetOperation::kAdd,
+                    hit->gaussian,        operation};
+  }
   const bool on_object =
       viewport_.active_labels() && (*viewport_.active_labels())[static_cast<std::size_t>(hit->gaussian)] != 0;
   const bool corrects = active && any_mark(*active);
   return HoverAsk{ws_.history.serial(),
                   ws_.view_serial,
                   camera,
-                  glm::floor(ws_.tools.pointer_px()),
+                  pixel,
                   corrects && (on_object || ws_.held_modifiers.ctrl),
                   hit->gaussian};
 }
@@ -235,6 +253,7 @@ void Clicks::refresh_hover() {
   if (hover_ && hover_->same_but_pixel(*ask) && hover_->pixel == ask->pixel) return;
   if (ws_.tasks.busy(TaskKind::kHover)) return;
   hover_ = ask;
+  if (ask->by_colour) return ask_by_colour(*ask);
   const ObjectItem* object = ws_.document().active_object();
   const ObjectItem none;
   CameraStroke stroke{ask->camera,
@@ -266,6 +285,26 @@ void Clicks::refresh_hover() {
           if (scene == ws_.scene && hover_ && hover_->same_but_pixel(ask)) show_hover(change, ask.rest);
         });
       });
+}
+
+// What the eyedropper or the flood would change, as Edits does it.
+void Clicks::ask_by_colour(const HoverAsk& ask) {
+  const Flags before = viewport_.active_labels(), shown = viewport_.shown(0);
+  ws_.tasks.submit(TaskKind::kHover, [this, ask, before, shown, scene = ws_.scene, graph = ws_.graph,
+                                      floods = ws_.view.tool == Tool::kFlood,
+                                      tolerance = ws_.view.colour_tolerance](const Job& job) {
+    const GaussianCloud& cloud = *scene->cloud;
+    const auto on = static_cast<std::size_t>(ask.on);
+    const Selection region = floods
+                                 ? select_flood(cloud, graph->get(job), on, tolerance,
+                                                shown ? std::span(*shown) : std::span<const std::uint8_t>())
+                                 : select_colour(cloud, base_colour(cloud, on), tolerance);
+    Selection change = combined(*before, region, *ask.by_colour);
+    for (std::size_t g = 0; g < change.size(); ++g) change[g] = change[g] != (*before)[g];
+    ws_.tasks.post([this, ask, scene, change = make_flags(std::move(change))] {
+      if (scene == ws_.scene && hover_ && hover_->same_but_pixel(ask)) show_hover(change, ask.rest);
+    });
+  });
 }
 
 // Where nothing else is done and no object is begun, what a first click needs is built: where the pointer

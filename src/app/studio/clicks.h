@@ -72,10 +72,11 @@ class Clicks {
     Camera camera;
     glm::vec2 pixel{0};
     bool rest = false;
-    std::int32_t on = -1;  // Gaussian under the pixel
+    std::int32_t on = -1;                        // Gaussian under the pixel
+    std::optional<SetOperation> by_colour = {};  // set: the click of a tool that goes by colour
     bool same_but_pixel(const HoverAsk& other) const {
       return document == other.document && view == other.view && rest == other.rest &&
-             same_camera(camera, other.camera);
+             by_colour == other.by_colour && same_camera(camera, other.camera);
     }
   };
 
@@ -85,8 +86,10 @@ class Clicks {
   const ClickMeanings* offered() const;
   std::optional<HoverAsk> hover_wanted() const;
   bool asks_ahead() const;
+  bool can_ask() const;
   bool on_last_dot() const { return ws_.tools.scale_armed() && viewport_.mark_at(ws_.tools.pointer_px()); }
   void refresh_hover();
+  void ask_by_colour(const HoverAsk& ask);
   void make_ready();
   void leave_what_came();
   void show_hover(const Flags& change, bool rest);

@@ -41,27 +41,39 @@ void FreeSides::frame() {
   };
   std::vector<Framing> sides = {framed(camera.pose().camera_from_world)};
   for (const glm::quat& rotation : camera.directions_around()) sides.push_back(framed(rotation));
+  const CameraPose from = camera.pose();
   camera.frame(sides.front());
   if (!in_scene) return;
   constexpr float kApart = 0.25f;  // of the object's size
   const float apart = kApart * glm::length(robust_bounds(points).extent());
   const int height_px = std::max(1, kWidthPx * pane.height_px / std::max(1, pane.width_px));
-  ws_.tasks.submit(TaskKind::kSides, [this, sides, height_px, apart, id = object->id, name = object->name,
-                                      scene = ws_.scene,
+  ws_.tasks.submit(TaskKind::kSides, [this, from, sides, height_px, apart, id = object->id,
+                                      name = object->name, scene = ws_.scene,
                                       labels = ws_.labels.labels(ws_.document(), *object, ws_.gaussians())](
                                          const Job& job) {
     constexpr double kMuch = 0.25, kBetter = 0.15, kAsGood = 0.03;
+    constexpr double kSeen = 0.5, kOutOfSight = 0.9;
+    const auto hides = [&](const CameraPose& pose) {
+      return hidden_share(*scene, *labels, camera_at(pose, kWidthPx, height_px), apart, job);
+    };
     std::vector<double> hidden;
     for (const Framing& side : sides) {
-      hidden.push_back(hidden_share(*scene, *labels, camera_at(side.pose, kWidthPx, height_px), apart, job));
+      hidden.push_back(hides(side.pose));
       if (job.cancelled() || hidden.front() < kMuch) return;
     }
     const double least = std::ranges::min(hidden);
     if (least > hidden.front() - kBetter) return;
     const auto best = static_cast<std::size_t>(  // the nearest of those as good
         std::ranges::find_if(hidden, [&](double h) { return h <= least + kAsGood; }) - hidden.begin());
-    ws_.tasks.post([this, scene, name, offered = Offer{id, sides.front().pose, sides[best]}] {
+    // The way back led behind a wall, as to see all of a floor.
+    const bool lost = hidden.front() > kOutOfSight && hides(from) < kSeen;
+    ws_.tasks.post([this, scene, name, lost, offered = Offer{id, sides.front().pose, sides[best]}] {
       if (scene != ws_.scene || offered.object != ws_.document().active) return;
+      if (lost && viewport_.camera().goal() == offered.from) {
+        viewport_.camera().frame(offered.side);
+        return ws_.say(Message::Kind::kInfo,
+                       fmt::format("Something stands before {}: shown from a side where less does", name));
+      }
       offer_ = offered;
       ws_.say(Message::Kind::kInfo,
               fmt::format("Something stands before {}: F again looks from a side where less does", name));

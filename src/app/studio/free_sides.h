@@ -1,5 +1,6 @@
 // Frames the object (F), and where something stands before it offers to look from a side where less does: the
-// next F, while the view has not moved. Sides are looked for on the worker.
+// next F, while the view has not moved. Where it was in sight and would be no more, it goes there at once.
+// Sides are looked for on the worker.
 #pragma once
 
 #include <optional>

@@ -72,7 +72,8 @@ void SceneFiles::perform(const OpenScene& c) {
   ws_.say(Message::Kind::kInfo, opening_);
   stop_for_loading();
   changing_to_.clear();
-  std::vector<SceneSource> files = {{.path = c.path, .spz_axes = c.spz_axes, .lod = c.lod}};
+  std::vector<SceneSource> files = {
+      {.path = c.path, .spz_axes = c.spz_axes, .cameras = c.cameras, .camera = c.camera, .lod = c.lod}};
   const TaskThread::Order order(TaskKind::kLoad, [this] { opening_.clear(); });
   ws_.tasks.submit(order, [this, path = c.path, files, added = c.added, axes = c.spz_axes, serial,
                            id = next_file_id_](const Job& job) mutable {

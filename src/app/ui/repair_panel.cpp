@@ -116,10 +116,12 @@ void property_range(UiContext& ui) {
   if (high != high_before) choice.high = high == most ? choice.histogram.high : kept(high);
 }
 
-SelectRange range_of(const PropertyChoice& choice, SetOperation operation) {
+SelectRangeOrColour range_of(const PropertyChoice& choice, SetOperation operation) {
   constexpr float kAll = std::numeric_limits<float>::infinity();
-  return {static_cast<Property>(choice.property), choice.low <= choice.histogram.low ? -kAll : choice.low,
-          choice.high >= choice.histogram.high ? kAll : choice.high, operation};
+  if (choice.property == kColourProperty) return SelectColour{choice.colour, choice.tolerance, operation};
+  return SelectRange{static_cast<Property>(choice.property),
+                     choice.low <= choice.histogram.low ? -kAll : choice.low,
+                     choice.high >= choice.histogram.high ? kAll : choice.high, operation};
 }
 
 // Shows in the picture what is in the range while the pointer is at it.
@@ -129,9 +131,8 @@ void preview_range(UiContext& ui, bool at_range) {
     if (shown) ui.ask(ShowRange{});
     return;
   }
-  const SelectRange wanted = range_of(ui.state.property, SetOperation::kAdd);
-  if (!shown || shown->property != wanted.property || shown->low != wanted.low || shown->high != wanted.high)
-    ui.ask(ShowRange{wanted});
+  const SelectRangeOrColour wanted = range_of(ui.state.property, SetOperation::kAdd);
+  if (shown != wanted) ui.ask(ShowRange{wanted});
 }
 
 void property_selection(UiContext& ui) {
@@ -155,10 +156,7 @@ void property_selection(UiContext& ui) {
   }
   const bool ranges = ImGui::IsItemActive();  // dragged, wherever the pointer is
   const auto ask = [&](SetOperation operation) {
-    if (choice.property == kColourProperty)
-      ui.ask(SelectColour{choice.colour, choice.tolerance, operation});
-    else
-      ui.ask(range_of(choice, operation));
+    std::visit([&](const auto& wanted) { ui.ask(wanted); }, range_of(choice, operation));
   };
   const ObjectItem* active = ui.studio.document().active_object();
   const std::string reason = active && active->locked ? active->name + " is locked" : "";
@@ -171,8 +169,7 @@ void property_selection(UiContext& ui) {
     ask(SetOperation::kIntersect);
   const ImVec2 range_to(range_from.x + ImGui::GetContentRegionAvail().x, ImGui::GetItemRectMax().y);
   const bool in_window = ImGui::IsWindowHovered(ImGuiHoveredFlags_AllowWhenBlockedByActiveItem);
-  preview_range(ui, choice.property != kColourProperty &&
-                        (ranges || (in_window && ImGui::IsMouseHoveringRect(range_from, range_to))));
+  preview_range(ui, ranges || (in_window && ImGui::IsMouseHoveringRect(range_from, range_to)));
 }
 
 }  // namespace

@@ -43,7 +43,7 @@ void axes_row(UiContext& ui) {
   const SpzAxes other = *scene->taken_axes == SpzAxes::kRub ? SpzAxes::kPly : SpzAxes::kRub;
   if (button(ui, "Take the other axes",
              "Loads the file again, with y and z the other way round; work begins anew", {}, false, -1))
-    ui.ask(OpenScene{scene->path, other});
+    ui.ask(OpenScene{scene->path, other, {}, {}, ui.studio.scene()->files.front().cameras});
 }
 
 void slider_row(const char* label, const char* tip, const std::function<void()>& slider) {
@@ -72,7 +72,7 @@ void level_row(UiContext& ui) {
                if (!ImGui::BeginCombo("##detail", said(open).c_str())) return;
                for (unsigned level = 0; level < file->levels.gaussians.size(); ++level)
                  if (ImGui::Selectable(said(level).c_str(), level == open) && level != open)
-                   ui.ask(OpenScene{file->path, file->spz_axes, {}, level});
+                   ui.ask(OpenScene{file->path, file->spz_axes, {}, level, file->cameras, file->camera});
                ImGui::EndCombo();
              });
 }

@@ -136,7 +136,7 @@ void dashed(ImDrawList& list, const std::vector<ImVec2>& path, ImU32 ink, float 
 }  // namespace
 
 // Scribbles and boxes are kept per view: they show where the camera stands as it did when they were drawn;
-// clicks wherever they are in sight. They fade where the object is looked at alone.
+// clicks wherever they are in sight. They fade where the object is looked at alone, which needs no frame.
 void draw_strokes(const UiContext& ui, const UiRect& area) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const OnScreen place = on_screen(ui, area);
@@ -148,7 +148,7 @@ void draw_strokes(const UiContext& ui, const UiRect& area) {
     if (!same_pose(view.camera, now)) continue;
     const OnScreen there = placement_of(view.camera, now, place);
     for (const Stroke& stroke : view.strokes) {
-      if (stroke.is_click()) continue;
+      if (stroke.is_click() || (stroke.is_box() && ui.studio.view().display != DisplayMode::kWhole)) continue;
       const bool is_object = stroke.label == SeedLabel::kObject;
       const ImU32 ink = faded(is_object ? kObjectInk : kRestInk, opacity);
       if (stroke.is_box()) {

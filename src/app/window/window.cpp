@@ -342,7 +342,8 @@ void run_window(const WindowOptions& options) {
     glfwSetWindowUserPointer(window.handle, &loop);
     install_callbacks(window.handle);
     if (!options.open.empty())
-      app.studio().apply(OpenScene{options.open, options.spz_axes, options.added, options.lod});
+      app.studio().apply(OpenScene{options.open, options.spz_axes, options.added, options.lod,
+                                   options.cameras, options.camera});
     run_loop(loop, &keeper, options.stop,
              options.frame_times ? std::optional<FrameLog>(options.frame_times) : std::nullopt);
     if (options.stop.stop_requested())

@@ -13,7 +13,9 @@ struct WindowOptions {
   std::filesystem::path open;                // a scene or a work file; empty: the start page
   std::vector<std::filesystem::path> added;  // scenes in the same window
   std::optional<SpzAxes> spz_axes;
-  std::optional<unsigned> lod;  // without it the finest level of detail that the free memory holds
+  std::optional<unsigned> lod;    // without it the finest level of detail that the free memory holds
+  std::filesystem::path cameras;  // of OpenScene, as the next
+  std::string camera;
   RendererChoice renderer = RendererChoice::kAuto;
   float ui_scale = 0;         // 0: the screen's, times the remembered one
   int width = 0, height = 0;  // 0: as it was left

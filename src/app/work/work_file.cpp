@@ -42,14 +42,30 @@ json parse(const std::filesystem::path& path) {
 }
 
 // A file beside or below the work file moves with it.
-json source_json(const SceneSource& file, const std::filesystem::path& work) {
-  const std::filesystem::path absolute = std::filesystem::absolute(file.path).lexically_normal();
+void put_path(const std::filesystem::path& file, const std::filesystem::path& work, const std::string& key,
+              json* source) {
+  const std::filesystem::path absolute = std::filesystem::absolute(file).lexically_normal();
   const std::filesystem::path relative =
       absolute.lexically_relative(std::filesystem::absolute(work).parent_path().lexically_normal());
   const bool beside = !relative.empty() && !relative.string().starts_with("..");
   const std::string place = (beside ? relative : absolute).string();
-  json source = {{"path", place}, {"hash", fmt::format("{:016x}", file.hash)}, {"gaussians", file.gaussians}};
-  if (!is_utf8(place)) source["path_bytes"] = std::vector<std::uint8_t>(place.begin(), place.end());
+  (*source)[key] = place;
+  if (!is_utf8(place)) (*source)[key + "_bytes"] = std::vector<std::uint8_t>(place.begin(), place.end());
+}
+
+std::filesystem::path path_from(const json& said, const std::string& key, const std::filesystem::path& work) {
+  std::filesystem::path path = said.at(key).get<std::string>();
+  if (said.contains(key + "_bytes")) {
+    const auto bytes = said.at(key + "_bytes").get<std::vector<std::uint8_t>>();
+    path = std::string(bytes.begin(), bytes.end());
+  }
+  return path.is_absolute() ? path : std::filesystem::absolute(work).parent_path() / path;
+}
+
+json source_json(const SceneSource& file, const std::filesystem::path& work) {
+  json source = {{"hash", fmt::format("{:016x}", file.hash)}, {"gaussians", file.gaussians}};
+  put_path(file.path, work, "path", &source);
+  if (!file.cameras.empty()) put_path(file.cameras, work, "cameras", &source);
   if (file.spz_axes) source["spz_axes"] = name_of(*file.spz_axes);
   if (file.lod.value_or(0) > 0) source["lod"] = *file.lod;
   if (file.origin && *file.origin != glm::dvec3(0))
@@ -63,12 +79,8 @@ json source_json(const SceneSource& file, const std::filesystem::path& work) {
 
 SceneSource source_from(const json& said, const std::filesystem::path& work) {
   SceneSource file;
-  file.path = said.at("path").get<std::string>();
-  if (said.contains("path_bytes")) {
-    const auto bytes = said.at("path_bytes").get<std::vector<std::uint8_t>>();
-    file.path = std::string(bytes.begin(), bytes.end());
-  }
-  if (!file.path.is_absolute()) file.path = std::filesystem::absolute(work).parent_path() / file.path;
+  file.path = path_from(said, "path", work);
+  if (said.contains("cameras")) file.cameras = path_from(said, "cameras", work);
   const std::string hash = said.at("hash");
   if (std::from_chars(hash.data(), hash.data() + hash.size(), file.hash, 16).ec != std::errc())
     throw Error(work.string(), "does not say which scene it belongs to: its \"hash\" is no number");

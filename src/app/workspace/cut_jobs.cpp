@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "app/document/words.h"
 #include "app/picture/cut_pictures.h"
 #include "app/picture/cut_sentences.h"
 #include "core/error.h"
@@ -169,13 +170,13 @@ bool CutJobs::take_known(const Order& order) {
   const auto ahead = std::ranges::find_if(ahead_, is_it);
   const auto before = std::ranges::find_if(known_, is_it);
   if (ahead == ahead_.end() && before == known_.end()) return false;
-  CutRun run = ahead != ahead_.end() ? ahead->run : before->run;
+  CutRun run = before != known_.end() ? before->run : ahead->run;
   run.first_mask_ms = run.total_ms = 0;  // what was there cost nothing
   run.changed_nothing = false;
-  run.views_labels.reset();
-  run.doubts = doubts_of(*run.result);  // without that on its sides, which comes with their pictures
   const std::shared_ptr<const CutResult> result = run.result;
+  const bool drawn = run.views_drawn && !run.views.empty();
   finish(order, std::move(run), make_flags(result->labels));
+  if (drawn) return true;  // renew_views() draws them again where they are to show another change
   ws_.tasks.submit(TaskKind::kCut,
                    [this, order, result](const Job& job) { look_around(order, *result, job); });
   return true;
@@ -314,9 +315,9 @@ Flags CutJobs::labels_before(const Order& order, const Flags& shown) const {
 void CutJobs::finish(const Order& order, CutRun run, const Flags& labels) {
   if (!runs(order)) return;
   const CutRun& now = running_->run;
-  run.views = now.views;
-  for (ViewCard& card : run.views) card.doubt.clear();  // it was about another cut
-  run.views_drawn = false;
+  if (!run.views_drawn) run.views = now.views;
+  for (ViewCard& card : run.views)
+    if (!run.views_drawn) card.doubt.clear();  // it was about another cut
   run.stages = run.result->stages.empty() ? now.stages : run.result->stages;
   run.first_mask_ms = now.first_mask_ms == 0 ? run.total_ms : now.first_mask_ms;
   const std::shared_ptr<const CutResult> result = run.result;
@@ -341,18 +342,24 @@ void CutJobs::finish(const Order& order, CutRun run, const Flags& labels) {
     return ws_.say(Message::Kind::kRefused, name + ": " + result->reason);
   const bool stroked = is_of_stroke(ws_.history);
   const Flags before = cut_already && !stroked ? shown : labels_before(order, shown);
-  const std::string changed = what_changed(*before, *labels_now(), seconds);
+  const bool so_already = so_already_ == order.key;
+  const std::string already = so_already ? why_so_already(order.request, *result) : "";
   if (stroked && *before == *labels_now() && count_flags(*before) > 0) {
     if (CutRun* kept = known_run(order.object, order.key)) kept->changed_nothing = true;
-    return ws_.say(
-        Message::Kind::kRefused,
-        fmt::format("{}: {}. Click nearer to what is wrong, come nearer, or draw over it", name, changed));
+    return ws_.say(Message::Kind::kRefused,
+                   fmt::format("{}: {}, as before: {}", name, gaussians_text(count_flags(*before)),
+                               so_already ? already
+                                          : "that changed nothing. Click nearer to what is wrong, come "
+                                            "nearer, or draw over it"));
   }
+  const std::string changed = what_changed(*before, *labels_now(), seconds);
   const std::string box =
       *before == *labels_now() ? "" : added_by_box(ws_.history, order.object, ws_.context());
   const std::string shared = box + shared_with(ws_.document(), order.object, labels_of_item);
-  const std::string hint =
-      ws_.tools.scale_armed() ? wheel_hint(order.request, *result, *before, *labels_now()) : "";
+  const std::string hint = so_already && changed_little(*before, *labels_now()) ? ". But " + already
+                           : ws_.tools.scale_armed()
+                               ? wheel_hint(order.request, *result, *before, *labels_now())
+                               : "";
   ws_.say(doubt.empty() ? Message::Kind::kDone : Message::Kind::kInfo,
           fmt::format("{}: {}{}{}", name, changed, shared, doubt.empty() ? hint : ". But " + doubt));
 }

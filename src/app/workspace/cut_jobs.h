@@ -45,6 +45,8 @@ class CutJobs {
   // no cut. Called once a frame at most.
   void cut_ahead(std::span<const int> size_steps);
   void looked_from(const Camera& camera);  // the person has: sides that it shows are looked at
+  // The cut of that key is of a click that asks for what is so already: said if it changes nothing.
+  void note_so_already(std::string key) { so_already_ = std::move(key); }
   void pause();  // stops the running cut; update() starts it again once no scene is being opened
   // Lets update() start a cut again that was given up.
   void want_again(const ObjectItem& object) { given_up_.erase(ws_.history.keys(object).cut); }
@@ -99,6 +101,7 @@ class CutJobs {
   std::vector<Known> ahead_;        // cuts that were not asked for yet; without a result: one that failed
   std::uint64_t ahead_serial_ = 0;  // History::serial() for which no cut ahead is missing
   std::set<std::string> given_up_;  // keys of cuts that were cancelled or failed
+  std::string so_already_;          // key, see note_so_already()
   std::map<ObjectId, std::vector<std::string>> doubts_said_;  // after the last cut
   std::map<ObjectId, std::string> sides_said_;                // the same, of the pictures of its sides
   std::uint64_t next_card_serial_ = 1, started_ = 0, done_ = 0;

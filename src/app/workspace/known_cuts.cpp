@@ -38,10 +38,18 @@ void CutJobs::recall() {
                    });
 }
 
-// Nothing where there is none, see before_last_stroke().
+// No labels where there are none, see before_last_stroke(): a step that was no stroke, as one that took a
+// stroke away. What was in doubt before it still is.
 void CutJobs::note_before(Order* order) const {
   const Document* before = before_last_stroke(ws_.history, order->object);
-  if (!before) return;
+  if (!before) {
+    order->key_before = order->key;
+    for (std::size_t at = ws_.history.cursor(); at > 0 && order->key_before == order->key; --at) {
+      const ObjectItem* item = ws_.history.entries()[at - 1].document.find(order->object);
+      order->key_before = item ? item->cut_key : "";
+    }
+    return;
+  }
   const ObjectItem& item = *before->find(order->object);
   order->before = make_flags(labels_of(*before, item, ws_.gaussians()));
   order->key_before = item.cut_key;
@@ -56,7 +64,11 @@ void CutJobs::take_cards(CutRun* run, const Order& order, const std::vector<std:
                          std::vector<ViewCard> cards) {
   if (const CutRun* before = known_run(order.object, order.key_before))
     keep_doubts(before->views, labels, &cards);
-  if (run->views_drawn) keep_doubts(run->views, labels, &cards);  // a hand changed it, which is no stroke
+  if (run->views_drawn) {  // a hand changed it, or it shows another change: neither is a stroke
+    keep_doubts(run->views, labels, &cards);
+    if (run->result && labels == (run->views_labels ? *run->views_labels : run->result->labels))
+      keep_looks(run->views, &cards);
+  }
   run->views = in_places_of(run->views, std::move(cards));
   run->views_before = order.before;
   run->views_drawn = true;

@@ -149,7 +149,7 @@ void Viewport::show_floaters(bool shown) {
   ++ws_.view_serial;
 }
 
-void Viewport::show_range(const std::optional<SelectRange>& range) {
+void Viewport::show_range(const std::optional<SelectRangeOrColour>& range) {
   range_shown_ = range;
   ++ws_.view_serial;
 }

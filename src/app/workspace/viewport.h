@@ -82,8 +82,8 @@ class Viewport {
   Flags seen(int pane) const;  // Gaussians that the pane shows now; null: all
   void show_floaters(bool shown);
   bool floaters_shown() const { return floaters_shown_; }
-  void show_range(const std::optional<SelectRange>& range);  // outlines it; none: no outline
-  const std::optional<SelectRange>& range_shown() const { return range_shown_; }
+  void show_range(const std::optional<SelectRangeOrColour>& range);  // outlines it; none: no outline
+  const std::optional<SelectRangeOrColour>& range_shown() const { return range_shown_; }
   void show_placed(std::uint32_t file);  // SceneSource::id of the file whose handles show; 0: none
   std::uint32_t placed_file() const { return placed_file_; }
   // True while handles show and no object came since: it is the file that one looks at.
@@ -151,7 +151,7 @@ class Viewport {
   std::uint64_t styled_document_ = 0, styled_view_ = 0;  // serials for which styles were requested last
   bool styles_on_the_way_ = false;
   bool floaters_shown_ = false, say_floaters_ = false;
-  std::optional<SelectRange> range_shown_;
+  std::optional<SelectRangeOrColour> range_shown_;
   std::uint32_t placed_file_ = 0;
   std::uint64_t placed_serial_ = 0;  // serial of the document when its handles came
 

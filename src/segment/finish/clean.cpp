@@ -54,8 +54,8 @@ void keep_best(std::vector<OwnView>* views) {
 std::string why_not(const CleanReport& report) {
   return report.short_reason() + (report.views < kLeastViews
                                       ? fmt::format("; it takes {} from which it shows as much", kLeastViews)
-                                      : "; hidden pieces are selected, too, or one before them is missing: "
-                                        "take them away, or add it");
+                                      : ". Either something that other things hide is selected, too, or a "
+                                        "piece of it is missing: take away the one, or add the other");
 }
 
 // Steps 1 to 3, or the last two alone; `kept` says what left. Returns what was cut off.
@@ -124,8 +124,8 @@ CleanObject cleaned(const CleanInput& input, std::span<const Camera> cameras, co
 
 std::string CleanReport::short_reason() const {
   if (views >= kLeastViews || agreed < views)
-    return fmt::format("from {} of {} side{} it would show what the scene hides", views - agreed, views,
-                       views == 1 ? "" : "s");
+    return fmt::format("from {} of {} side{} it looks different alone than in the scene", views - agreed,
+                       views, views == 1 ? "" : "s");
   return fmt::format("it is seen from {} side{} only", views, views == 1 ? "" : "s");
 }
 

@@ -62,6 +62,21 @@ TEST_CASE("view --spz-axes: scenes of which none is a .spz are refused before a 
   }
 }
 
+TEST_CASE("view --cameras: a file that is not there, and saved work, are refused before a window opens") {
+  Workplace& place = still_life().place;
+  if (place.run("view --help").out.find("--cameras") == std::string::npos) return;  // built without a window
+  place.write("seen.ply", "ply\n");
+  place.write("seen.splatcut.json", "{}");
+  for (const auto& [options, said] :
+       {std::pair("seen.ply --cameras none.json", "none.json: there is no such file"),
+        std::pair("seen.splatcut.json --cameras seen.ply", "has its own cameras")}) {
+    const Result refused = place.run(std::string("view ") + options);
+    CHECK(refused.code == 1);
+    CHECK_MESSAGE(refused.err.find(said) != std::string::npos, refused.err);
+  }
+  CHECK(place.run("view --cameras seen.ply").code == 2);
+}
+
 TEST_CASE("wrong usage exits with 2, a thing that cannot be done with 1 and a sentence on stderr") {
   StillLife& life = still_life();
   Workplace& place = life.place;

@@ -107,6 +107,16 @@ TEST_CASE("hands: where something stands before the object, F again looks from a
   CHECK(frame() == first);
 }
 
+TEST_CASE("hands: F never leaves the object behind a wall") {
+  Hands hands = hands_on_sample(false);
+  hands.app.click(hands.app.screen_of({450, 640}));  // the table, all of which is seen from outside the room
+  REQUIRE(hands.selected() > 50000);
+  hands.app.key('F');
+  REQUIRE(hands.app.settle());
+  CHECK(covered_share(hands) < 0.5);
+  CHECK(hands.said().find("Something stands before Object 1: shown from a side") == 0);
+}
+
 TEST_CASE("hands: F before there are thumbnails leaves the room that they will cover") {
   Hands hands(false);
   Studio& studio = hands.studio();

@@ -95,3 +95,37 @@ TEST_CASE("opening view: of scenes opened together it shows all of them") {
   go_back(hands);
   CHECK(hands.studio().camera().pose() == start);
 }
+
+TEST_CASE(
+    "opening view: cameras that were asked for come before those beside the scene, also in saved work") {
+  const ScratchFolder folder("asked_cameras");
+  const std::filesystem::path scene = folder / "s.compressed.ply", asked = folder / "of/capture.json",
+                              work = folder / "w.splatcut.json";
+  std::filesystem::copy_file(kSmallSample, scene);
+  std::filesystem::create_directory(folder / "of");
+  std::filesystem::copy_file(kSampleFolder / "cameras.json", asked);
+  Hands hands(false, with_kept_scenes(), scene);
+  REQUIRE(hands.studio().scene()->views().cameras.empty());
+  hands.studio().apply(OpenScene{scene, {}, {}, {}, asked, "2"});
+  REQUIRE(hands.app.settle());
+  const auto cameras = [&] { return hands.studio().scene()->views().cameras; };
+  const std::size_t given = cameras().size();
+  REQUIRE(given > 2);
+  CHECK(glm::distance(hands.studio().camera().pose().position_world, cameras()[2].centre_world()) < 1e-3f);
+  hands.studio().apply(SaveWork{work});
+  REQUIRE(hands.app.settle());
+  hands.studio().apply(OpenScene{work});
+  REQUIRE(hands.app.settle());
+  CHECK(cameras().size() == given);
+  for (const auto& [file, camera, said] :
+       {std::tuple(asked, "none_such", "has no camera \"none_such\""),
+        std::tuple(scene, "0", "s.compressed.ply"),
+        std::tuple(std::filesystem::path(), "0", "Give them with --cameras")}) {
+    CAPTURE(said);
+    const std::uint64_t before = hands.studio().scene()->serial;
+    hands.studio().apply(OpenScene{scene, {}, {}, {}, file, camera});
+    REQUIRE(hands.app.settle());
+    CHECK(hands.studio().scene()->serial == before);
+    CHECK_MESSAGE(hands.said().find(said) != std::string::npos, hands.said());
+  }
+}

@@ -42,6 +42,31 @@ TEST_CASE("hands: the eyedropper takes one colour everywhere, the flood where it
   CHECK(hands.selected() == 0);
 }
 
+TEST_CASE("hands: eyedropper and flood outline what a click there changes before it is made") {
+  Hands hands = hands_on_sample(false);
+  const glm::vec2 on_orange = hands.app.screen_of(kOnOrange);
+  for (const int key : {'C', 'G'}) {
+    CAPTURE(static_cast<char>(key));
+    hands.app.key(key);
+    hands.studio().apply(EditSelection{SelectionEdit::kNone});
+    for (const Modifiers& held : {Modifiers{}, Modifiers{.ctrl = true}}) {
+      CAPTURE(held.ctrl);
+      hands.app.move(on_orange, held);
+      REQUIRE(hands.app.settle());
+      const Flags outlined = hands.studio().viewport().style(0).highlight;
+      const std::size_t before = hands.selected();
+      REQUIRE(outlined);
+      hands.app.click(on_orange, PointerButton::kLeft, held);
+      const std::size_t after = hands.selected();
+      CHECK(count_flags(*outlined) == (held.ctrl ? before - after : after - before));
+      hands.app.move(on_orange + glm::vec2(60, -150));
+    }
+  }
+  hands.app.key('2');
+  REQUIRE(hands.app.settle());
+  CHECK(hands.selected() == 0);
+}
+
 TEST_CASE("hands: Enter closes a polygon whatever key is held, and does what its corners were clicked with") {
   for (const Modifiers held :
        {Modifiers{}, Modifiers{.shift = true}, Modifiers{.ctrl = true}, Modifiers{.alt = true}}) {
@@ -93,6 +118,17 @@ TEST_CASE("hands: the ends of a range take all beyond them, and what is in it sh
   CHECK_FALSE(app.studio().viewport().range_shown());
   app.press_item("side/scroll", {"Add"});
   CHECK(selected() == in_range);
+  app.studio().apply(EditSelection{SelectionEdit::kNone});
+  app.press_item("side/scroll", {"Colour"});
+  choice.colour = base_colour(cloud, 0);
+  app.frames(2);
+  const UiRect add_colour = app.button("Add");
+  app.move(0.5f * (add_colour.min + add_colour.max));
+  REQUIRE(app.settle());
+  const Flags of_colour = app.studio().viewport().style(0).highlight;
+  REQUIRE(of_colour);
+  app.press_item("side/scroll", {"Add"});
+  CHECK(selected() == count_flags(*of_colour));
 }
 
 TEST_CASE("needles: how many times longer than wide, whatever the third axis") {

@@ -184,3 +184,70 @@ TEST_CASE(
     CHECK(still() == 0);
   }
 }
+
+TEST_CASE("sides: what is in doubt stays so where a click is taken away, and wherever undo and redo lead") {
+  Hands hands = hands_on_sample();
+  const glm::vec2 on_orange = hands.app.screen_of(kOnOrange), beside = on_orange + glm::vec2(0, 14);
+  const auto doubts = [&] {
+    std::vector<std::string> all;
+    for (const ViewCard& card : cards(hands.app))
+      if (!card.doubt.empty()) all.push_back(card.doubt);
+    std::ranges::sort(all);
+    return all;
+  };
+  const auto of_before = [&] {
+    return std::ranges::count_if(cards(hands.app),
+                                 [](const ViewCard& c) { return c.doubt.starts_with("something here"); });
+  };
+  const auto after = [&](const Command& command) {
+    hands.studio().apply(command);
+    REQUIRE(hands.app.settle());
+    return doubts();
+  };
+  const auto press = [&](const glm::vec2& at, PointerButton button) {
+    hands.app.move(hands.app->interface().viewport().min + glm::vec2(300, 60));
+    hands.app.frames(2);
+    hands.app.click(at, button);
+    REQUIRE(hands.app.settle());
+  };
+  const auto strokes = [&] { return stroke_count(*hands.studio().document().active_object()); };
+  press(on_orange, PointerButton::kLeft);
+  const auto both = doubts();
+  REQUIRE(of_stroke(hands.app) > 0);
+  SUBCASE("the last click, whose state was there before") {
+    press(beside, PointerButton::kRight);
+    const auto corrected = doubts();
+    const auto pictures = pixels(hands.app);
+    press(beside, PointerButton::kLeft);
+    REQUIRE(strokes() == 2);
+    const auto taken_back = doubts();
+    CHECK(of_before() > 0);
+    for (int i = 0; i < 2; ++i) {
+      CHECK(after(Undo{}) == corrected);
+      CHECK(pixels(hands.app) == pictures);
+      CHECK(after(Redo{}) == taken_back);
+    }
+    hands.studio().apply(Undo{});
+    CHECK(after(Undo{}) == both);
+    CHECK(after(Redo{}) == corrected);
+  }
+  SUBCASE("the first click") {
+    press(hands.app.screen_of(kOnApple), PointerButton::kRight);
+    REQUIRE(strokes() == 1);
+    CHECK(of_before() > 0);
+  }
+  SUBCASE("what was looked at stays looked at") {
+    const Camera front = hands.studio().viewport().pane_camera();
+    const std::vector<ViewCard> sides = cards(hands.app);
+    for (const ViewCard& side : sides) after(GoToCamera{side.camera});
+    after(GoToCamera{front});
+    press(beside, PointerButton::kRight);
+    CHECK(of_before() == 0);
+    press(beside, PointerButton::kLeft);
+    CHECK(of_before() == 0);
+    hands.studio().apply(Undo{});
+    CHECK(after(Undo{}) == both);
+    press(hands.app.screen_of(kOnMug), PointerButton::kLeft);
+    CHECK(of_before() == 0);
+  }
+}

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "artist.h"
+#include "hands.h"
 
 using namespace splatcut;
 using namespace splatcut::testing;
@@ -141,6 +142,22 @@ TEST_CASE("clicks: with the object hidden, hover and click hit what is seen") {
     // It is kept what was seen: saved and computed again, the labels are the same.
     artist.check_saved_work();
   }
+}
+
+TEST_CASE("clicks: with outlines off, hovering outlines nothing where the rest is looked at") {
+  Hands hands;
+  const auto outlined = [&](bool outline, DisplayMode display) {
+    ViewState view = hands.studio().view();
+    view.outline = outline;
+    view.display = display;
+    hands.studio().apply(SetView{view});
+    hands.app.move(hands.app.screen_of(kOnOrange));
+    REQUIRE(hands.app.settle());
+    return hands.studio().viewport().style(0).highlight != nullptr;
+  };
+  CHECK(outlined(true, DisplayMode::kHide));
+  CHECK_FALSE(outlined(false, DisplayMode::kHide));
+  CHECK(outlined(false, DisplayMode::kWhole));
 }
 
 TEST_CASE("clicks: where nothing is, a click is refused with a word and is no stroke") {
@@ -294,6 +311,7 @@ TEST_CASE("clicks: what is shown as said already gets a word") {
   };
   REQUIRE(artist.app.settle());
   CHECK(words("That is part of Object 1 already"));
+  CHECK(words("that place belongs to it already. To take more, click what is missing"));
   CHECK(artist.said().find("Gaussians") != std::string::npos);
   CHECK(iou_of(before, artist.labels()) > 0.99);
   artist.click(artist.beside(before, 25), PointerButton::kRight);

@@ -237,7 +237,7 @@ TEST_CASE("hands: the rest is exported without ghosts, or with all its rows") {
 TEST_CASE("exports: what is said of them names objects whose edges stay, and promises no number of a hole") {
   CleanReport good, bad, other;
   good.cleaned = true;
-  bad.reason = "from 2 of 7 sides it would show what the scene hides";
+  bad.reason = "from 2 of 7 sides it looks different alone than in the scene";
   other.reason = "3 Gaussians have no edges";
   ExportReport one;
   count_edges(bad, &one);
@@ -269,21 +269,27 @@ TEST_CASE("exports: the dialog promises a number, and that nothing is lost, only
   CHECK(changes_text(choice, cleaned, {}) == "Clean edges leave out 214 Gaussians that the scene hides.");
   CHECK(edges_stay_text(cleaned).empty());
   CHECK(amount_text(choice, 46423, stays, {}, plan) == "46,423 Gaussians, 4.3 MB");
-  CHECK(edges_stay_text(stays) == "Edges of Mug stay: 3 Gaussians have no edges.");
+  CHECK(edges_stay_text(stays) == "Ticked, but edges of Mug cannot be cleaned: 3 Gaussians have no edges.");
   CHECK(loss_text(choice, stays, {}, plan) == "Nothing is lost.");
   choice.what = ExportWhat::kAllObjects;
   EdgesKnown all = cleaned;
   all.count(CleanReport{.reason = "3 Gaussians have no edges"}, "Mug");
-  CHECK(edges_stay_text(all) == "Edges of Mug stay: 3 Gaussians have no edges.");
+  CHECK(edges_stay_text(all) == "Ticked, but edges of Mug cannot be cleaned: 3 Gaussians have no edges.");
   CHECK(changes_text(choice, all, {}) == "Clean edges leave out 214 Gaussians that the scene hides.");
   all.count(CleanReport{.reason = "it is not seen"}, "Cup");
-  CHECK(edges_stay_text(all) == "Edges of 2 objects stay, Mug the first: 3 Gaussians have no edges.");
+  CHECK(edges_stay_text(all) ==
+        "Ticked, but edges of 2 objects (Mug the first) cannot be cleaned: 3 Gaussians have no edges.");
+  EdgesKnown hidden{.clean = true};
+  hidden.count(CleanReport{.views = 12, .agreed = 2}, "Pot");
+  CHECK(
+      edges_stay_text(hidden) ==
+      "Ticked, but edges of Pot cannot be cleaned: from 10 of 12 sides it looks different alone than in the "
+      "scene. Correct the selection, or clean anyway.");
   choice.what = ExportWhat::kRest;
   for (const EdgesKnown& edges : {not_yet, cleaned}) {
     CHECK(amount_text(choice, 139338, edges, {}, plan) == "About 139,338 Gaussians, about 4.3 MB");
     CHECK(changes_text(choice, edges, {}) ==
-          "With clean edges, what is left of the object leaves, too; what was cut off it and is not its own "
-          "stays.");
+          "With clean edges, faint remains of the object go, too, and what was cut off its edges stays.");
     CHECK(loss_text(choice, edges, {}, plan).empty());
   }
   CHECK(amount_text(choice, 139338, stays, {}, plan) == "139,338 Gaussians, 4.3 MB");

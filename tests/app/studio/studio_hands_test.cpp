@@ -202,7 +202,20 @@ TEST_CASE("hands: a click that changes nothing is a warning, with what to do") {
   REQUIRE(hands.selected() == before);
   const Message& last = hands.studio().messages().back();
   CHECK(last.kind == Message::Kind::kRefused);
-  CHECK(last.text.find("changed nothing") != std::string::npos);
+  CHECK_MESSAGE(last.text.find("as before: that place belongs to it already. To take more, click what") !=
+                    std::string::npos,
+                last.text);
+  CHECK(last.text.find("nearer") == std::string::npos);
+}
+
+TEST_CASE("hands: a right click on what is not selected is told that it does not belong to the object") {
+  Hands hands;
+  const std::size_t before = hands.selected();
+  hands.app.click(hands.app.screen_of(kOnOrange), PointerButton::kRight);
+  REQUIRE(hands.selected() == before);
+  CHECK_MESSAGE(
+      hands.said().find("that place does not belong to it as it is. To remove more") != std::string::npos,
+      hands.said());
 }
 
 TEST_CASE(

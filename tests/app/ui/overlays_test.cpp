@@ -110,6 +110,31 @@ TEST_CASE("overlays: strokes fade where the object is looked at alone") {
   CHECK(far_from_ink() > 40);
 }
 
+TEST_CASE("overlays: the frame of a box stands in the whole scene alone") {
+  Hands hands(false);
+  const glm::vec2 apple = hands.app.screen_of(kOnApple);
+  hands.app.key('4');
+  hands.app.drag({apple - 40.0f, apple, apple + 40.0f});
+  REQUIRE(hands.selected() > 0);
+  REQUIRE(hands.studio().view().tool == Tool::kBox);
+  const auto has_frame = [&] {
+    hands.app.move({5, kHandsHeight - 5});
+    REQUIRE(hands.app.settle());
+    const Image<Rgb8> picture = hands.app.picture();
+    int green = 0;
+    for (int i = -20; i <= 20; ++i) {
+      const Rgb8 p = picture.at(static_cast<int>(apple.x) - 40, static_cast<int>(apple.y) + i);
+      green += p[1] > p[0] + 25 && p[1] > p[2] + 25;
+    }
+    return green > 30;
+  };
+  CHECK(has_frame());
+  hands.app.key('I');
+  CHECK_FALSE(has_frame());
+  hands.app.key('H');
+  CHECK_FALSE(has_frame());
+}
+
 TEST_CASE("overlays: the bar with a click's meanings ends within the picture of a small window") {
   HeadlessApp app(640, 480);
   app.interface_state().hint_wanted = false;

@@ -205,8 +205,8 @@ TEST_CASE("the guard: labels that are not right yet leave the object as it is, a
   CHECK_FALSE(object.report.cleaned);
   CHECK(object.report.reason ==
         object.report.short_reason() +
-            "; hidden pieces are selected, too, or one before them is missing: take them "
-            "away, or add it");
+            ". Either something that other things hide is selected, too, or a piece of it is missing: take "
+            "away the one, or add the other");
   CHECK(object.report.left + object.report.split + object.report.made_solid + object.report.recoloured == 0);
   CHECK(same_rows(object.cloud, permuted(thing.scene.cloud, object.gaussian)));
   CHECK(static_cast<std::ptrdiff_t>(object.gaussian.size()) == std::ranges::count(labels, 1));
@@ -219,9 +219,9 @@ TEST_CASE("why it is not cleaned, in short: the sides that do not agree, or that
     report.agreed = agreed;
     return report.short_reason();
   };
-  CHECK(reason(12, 2) == "from 10 of 12 sides it would show what the scene hides");
-  CHECK(reason(4, 3) == "from 1 of 4 sides it would show what the scene hides");
-  CHECK(reason(1, 0) == "from 1 of 1 side it would show what the scene hides");
+  CHECK(reason(12, 2) == "from 10 of 12 sides it looks different alone than in the scene");
+  CHECK(reason(4, 3) == "from 1 of 4 sides it looks different alone than in the scene");
+  CHECK(reason(1, 0) == "from 1 of 1 side it looks different alone than in the scene");
   CHECK(reason(4, 4) == "it is seen from 4 sides only");
   CHECK(reason(1, 1) == "it is seen from 1 side only");
 }
