@@ -32,9 +32,6 @@ struct Thing {
   CleanObject clean(const std::vector<std::uint8_t>& labels, bool rest = false, const Job& job = {}) const {
     return clean_object({scene.cloud, labels, {0, -1, 0}, scene.cameras, rest}, {}, job);
   }
-  CleanObject clean_anyway(const std::vector<std::uint8_t>& labels) const {
-    return clean_object({scene.cloud, labels, {0, -1, 0}, scene.cameras, true, true});
-  }
   CleanObject clean() const { return clean(test.truth_labels); }
 
   GaussianCloud as_labelled() const { return rest_of(scene.cloud, test.truth_labels, {}); }

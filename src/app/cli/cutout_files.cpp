@@ -144,10 +144,10 @@ nlohmann::json clean_json(const std::optional<CleanReport>& clean) {
   if (!clean) return json;
   json.update({{"views", clean->views}, {"agreed", clean->agreed}});
   if (!clean->cleaned) {
-    json["why_kept"] = clean->reason;
+    json["why_kept"] = clean->why_not;
     return json;
   }
-  if (clean->forced) json.update({{"forced", true}, {"used", clean->used}, {"doubt", clean->reason}});
+  json["used"] = clean->used;
   if (clean->uncut) json["uncut"] = true;
   json.update({{"left", clean->left},
                {"split", clean->split},
@@ -159,9 +159,8 @@ nlohmann::json clean_json(const std::optional<CleanReport>& clean) {
 void CutoutOptions::add_to(CLI::App& command) {
   command
       .add_option("--edges", edges,
-                  "clean: the object without what the scene around it had hidden, where its views agree; "
-                  "clean-anyway: also where too few agree; keep: its rows as they are")
-      ->check(CLI::IsMember({"clean", "clean-anyway", "keep"}))
+                  "clean: the object without what the scene around it had hidden; keep: its rows as they are")
+      ->check(CLI::IsMember({"clean", "keep"}))
       ->capture_default_str();
   command
       .add_option(
@@ -207,12 +206,7 @@ void CutoutOptions::check() const {
 }
 
 std::string EdgesReport::sentence() const {
-  if (!clean || clean->reason.empty()) return {};
-  if (clean->forced)
-    return fmt::format("edges are cleaned anyway, by {} views: {}", clean->used, clean->reason);
-  std::string text = "edges are kept: " + clean->reason;
-  if (clean->views > 0) text += fmt::format("\n--edges clean-anyway cleans them now. {}", kCleanAnywayCosts);
-  return text;
+  return clean && !clean->cleaned ? "edges are kept: " + clean->why_not : "";
 }
 
 nlohmann::json EdgesReport::json(bool times) const {
@@ -260,9 +254,7 @@ EdgesReport write_object(const CutoutFolder& to, const ObjectFiles& files,
   std::optional<CleanObject> clean;
   if (to.options.clean() && (scene || hull || pictures || to.rest)) {
     const auto start = std::chrono::steady_clock::now();
-    clean = clean_object(
-        {to.drawer(), labels, to.up_world, to.cameras, to.rest, to.options.clean_anyway(), to.owner}, {},
-        job);
+    clean = clean_object({to.drawer(), labels, to.up_world, to.cameras, to.rest, to.owner}, {}, job);
     report.ms = ms_since(start);
     report.clean = clean->report;
     if (to.rest) report.rest = std::move(clean->rest);

@@ -36,7 +36,6 @@ struct CutoutOptions {
 
   void add_to(CLI::App& command);  // which must not outlive this
   bool clean() const { return edges != "keep"; }
-  bool clean_anyway() const { return edges == "clean-anyway"; }
   bool writes(std::string_view what) const;
   void check() const;  // throws Error where a hole is to be filled in a rest that is not written
 };

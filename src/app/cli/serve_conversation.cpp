@@ -333,9 +333,7 @@ nlohmann::json Conversation::save(const nlohmann::json& request, const Job& job)
     for (std::uint8_t& flag : keep) flag = !flag;
   std::optional<CleanObject> clean;
   if (args.cutout.clean())
-    clean = clean_object(
-        {open.drawer(), labels, open.chosen.up_world, open.chosen.given, rest, args.cutout.clean_anyway()},
-        {}, job);
+    clean = clean_object({open.drawer(), labels, open.chosen.up_world, open.chosen.given, rest}, {}, job);
   const bool cleaned = clean && clean->report.cleaned;
   RestChanges changes = cleaned && rest ? clean->rest : RestChanges();
   std::optional<SurfacePatch> patch;

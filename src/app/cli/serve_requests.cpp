@@ -113,9 +113,8 @@ const std::vector<RequestKind>& kinds() {
         {"scale", kNumber, false, "Factor of all lengths"},
         kReplaces},
        {"edges", "fill", "scale-by"},
-       "gaussians, bytes, path; edges with views, agreed, and why_kept or what was done (forced with used "
-       "and "
-       "doubt); fill, not_given_back, loss of the format"},
+       "gaussians, bytes, path; edges with views, agreed, and why_kept or what was done; "
+       "fill, not_given_back, loss of the format"},
       {Ask::kCancel,
        "cancel",
        "Stops a request that is running or waiting, which then replies that it was cancelled",

@@ -64,12 +64,6 @@ Flags CarriedDocument::carried(const Flags& flags) {
   return known = make_flags(std::move(out));
 }
 
-std::vector<Flags> CarriedDocument::carried(const std::vector<Flags>& all) {
-  std::vector<Flags> out;
-  for (const Flags& flags : all) out.push_back(carried(flags));
-  return out;
-}
-
 // only_file: kAnyFile: all that have not moved.
 Flags CarriedDocument::seen(const Flags& flags, std::int32_t only_file) {
   Flags& known = known_[{flags, only_file}];

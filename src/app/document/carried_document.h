@@ -28,7 +28,6 @@ class CarriedDocument {
   // states of a history cost memory for distinct arrays only.
   Document operator()(const Document& document);
   Flags carried(const Flags& flags);  // one per Gaussian; null stays null
-  std::vector<Flags> carried(const std::vector<Flags>& all);
 
  private:
   struct File {  // a file of the new scene

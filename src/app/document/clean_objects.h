@@ -2,9 +2,8 @@
 // exports share it, so that an export writes what the window shows.
 //
 // Thread-safe; two threads that ask for the same object at the same time both compute it. Memory: labels and
-// Gaussians of the last few objects, labels of those that are cleaned anyway, and what the last two objects
-// change by leaving. Each array of labels is compared with the kept ones once, from then on by its address:
-// asking in every frame costs nothing.
+// Gaussians of the last few objects, and what the last two objects change by leaving. Each array of labels is
+// compared with the kept ones once, from then on by its address: asking in every frame costs nothing.
 #pragma once
 
 #include <deque>
@@ -44,44 +43,30 @@ struct SceneWithout {
 
 class CleanObjects {
  public:
-  // anyway: decisions() so far, in labels of this scene.
-  explicit CleanObjects(std::shared_ptr<const OpenedScene> scene, std::vector<Flags> anyway = {})
-      : scene_(std::move(scene)), anyway_(std::move(anyway)) {}
+  explicit CleanObjects(std::shared_ptr<const OpenedScene> scene) : scene_(std::move(scene)) {}
 
   // Returns the cached object for these labels (one per Gaussian of the scene, 1 = object) and this up
   // direction; null if it is not cached.
   std::shared_ptr<const CleanObject> known(const Flags& labels, const glm::vec3& up_world) const;
   // Returns the cached object, or computes it with clean_object() and keeps it; null if cancelled.
   std::shared_ptr<const CleanObject> made(const Flags& labels, const glm::vec3& up_world, const Job& job);
-  // From now on the object with these labels is cleaned even where the guard says no (clean.h), until
-  // kMostDecisions others were decided so.
-  void clean_anyway(const Flags& labels);
-  bool is_cleaned_anyway(const Flags& labels) const;
-  std::vector<Flags> decisions() const;  // labels that clean_anyway() was called with, the newest last
-
-  static constexpr std::size_t kMostDecisions = 32;
-
   // The same of the scene without an object.
   std::shared_ptr<const SceneWithout> known_without(const Leaving& leaving) const;
   std::shared_ptr<const SceneWithout> made_without(const Leaving& leaving, const Job& job);
 
  private:
   Flags first(const Flags& labels) const;  // of equal arrays the one that stands for all; under mutex_
-  bool anyway(const Flags& first) const;   // under mutex_
   SurfacePatch hole_of(const Leaving& leaving, const RestChanges& changes, const Job& job) const;
-  CleanObject computed(const Flags& labels, const glm::vec3& up_world, bool rest, bool anyway,
-                       const Job& job) const;
+  CleanObject computed(const Flags& labels, const glm::vec3& up_world, bool rest, const Job& job) const;
 
   struct Kept {
     Flags labels;  // first()
     glm::vec3 up_world;
-    bool anyway;
     std::shared_ptr<const CleanObject> object;
   };
 
   struct KeptWithout {
     Leaving leaving;  // its labels: first()
-    bool anyway;
     std::shared_ptr<const SceneWithout> without;
   };
 
@@ -89,7 +74,6 @@ class CleanObjects {
   mutable std::mutex mutex_;
   std::deque<Kept> kept_;                 // cached objects, the newest last
   std::deque<KeptWithout> kept_without_;  // the same
-  std::vector<Flags> anyway_;             // first() of labels that are cleaned anyway, the newest last
   using Known = std::weak_ptr<Flags::element_type>;
   mutable std::deque<std::pair<Known, Known>> asked_;  // arrays asked for last, and first() of each
 };

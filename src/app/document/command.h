@@ -310,11 +310,6 @@ struct SetUp {
   friend std::string edit(Document* document, const SetUp& command, const EditContext& context);
 };
 
-// Cleans the edges of the active object also where too few of its views agree, until its labels change.
-struct CleanAnyway {
-  static constexpr bool no_loss = true;
-};
-
 // Commands on the history and on running work.
 struct Undo {
   static constexpr bool no_loss = true;
@@ -426,9 +421,9 @@ using Command =
                  StepScale, ChooseMeaning, RemoveStroke, ClearStrokes, ComeNearer, NewObject, RemoveObject,
                  RenameObject, RecolourObject, ShowObject, LockObject, ActivateObject, MergeObjects,
                  SplitObject, DuplicateObject, SeparateObject, LeaveToOthers, DeleteSelected, RestoreDeleted,
-                 LeaveOutView, SetSmoothness, SetPreset, SetBackground, SetUp, CleanAnyway, Undo, Redo,
-                 JumpHistory, Cancel, Recompute, SetView, GoToCamera, LookAlong, NextBackdrop, SetBackdrop,
-                 SetFieldOfView, OpenScene, AddScene, PlaceScene, BringHere, RemoveScene, SaveWork,
-                 DropAutosave, Export, KeepFill, SaveSnapshot, SaveTurntable>;
+                 LeaveOutView, SetSmoothness, SetPreset, SetBackground, SetUp, Undo, Redo, JumpHistory,
+                 Cancel, Recompute, SetView, GoToCamera, LookAlong, NextBackdrop, SetBackdrop, SetFieldOfView,
+                 OpenScene, AddScene, PlaceScene, BringHere, RemoveScene, SaveWork, DropAutosave, Export,
+                 KeepFill, SaveSnapshot, SaveTurntable>;
 
 }  // namespace splatcut

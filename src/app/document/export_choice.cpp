@@ -78,8 +78,7 @@ void EdgesKnown::count(const std::optional<CleanReport>& report, const std::stri
     left_out += report->left;
   } else if (kept++ == 0) {
     kept_of = name;
-    why_kept = report->views > 0 ? report->short_reason() + ". Correct the selection, or clean anyway"
-                                 : report->reason;
+    why_kept = report->why_not;
   }
 }
 

@@ -51,7 +51,7 @@ struct EdgesKnown {
   std::size_t unknown = 0;                // number of objects that were not cleaned yet
   std::size_t cleaned = 0, left_out = 0;  // number of others; Gaussians that these leave out
   std::size_t kept = 0;                   // number of objects whose edges stay as they are
-  std::string kept_of, why_kept;          // the first one's name; reason and what to do, without a full stop
+  std::string kept_of, why_kept;          // the first one's name and reason, without a full stop
 
   // Of one more object; none: not known yet.
   void count(const std::optional<CleanReport>& report, const std::string& name);

@@ -170,17 +170,15 @@ SaveReport save_rest(const std::filesystem::path& path, const Scene& scene, std:
 
 void count_edges(const CleanReport& clean, ExportReport* report, const std::string& name) {
   if (!clean.cleaned && report->kept++ == 0) {
-    report->edges_kept = clean.reason;
+    report->edges_kept = clean.why_not;
     report->edges_kept_of = name;
   }
   report->clean += clean.cleaned;
-  report->forced += clean.forced;
 }
 
 std::string edges_text(const ExportReport& report) {
   std::string text;
   if (report.clean > 0) text += report.edges_kept.empty() ? ", edges cleaned" : ", edges of some cleaned";
-  if (report.forced > 0) text += report.forced == report.clean ? " anyway" : ", some of them anyway";
   if (report.edges_kept.empty()) return text;
   const std::string& name = report.edges_kept_of;
   const std::string whose = report.kept > 1 ? fmt::format(" of {} objects", report.kept)

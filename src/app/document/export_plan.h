@@ -40,7 +40,6 @@ struct ExportReport {
   std::uint64_t bytes = 0;
   std::string loss;           // sentence about what the format lost; empty: nothing
   std::size_t clean = 0;      // number of files whose object has clean edges, or that are its rest
-  std::size_t forced = 0;     // of these, files whose object was cleaned anyway
   std::string edges_kept;     // reason why the first object without them has none, if they were asked for
   std::string edges_kept_of;  // its name; empty: there is one object
   std::size_t kept = 0;       // number of objects without

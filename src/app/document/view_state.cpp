@@ -39,9 +39,7 @@ const char* label_of(const ViewState& view, const ShownObject& object) {
            : object.looking ? "Looking who saw it...  (Esc: stop)"
                             : "Who saw it is not known  (Shift+M: back)";
   if (view.display == DisplayMode::kIsolate)
-    return !object.clean   ? "Only the object  (I: back)"
-           : object.forced ? "Only the object, edges cleaned anyway  (I: back)"
-                           : "Only the object, edges cleaned  (I: back)";
+    return !object.clean ? "Only the object  (I: back)" : "Only the object, edges cleaned  (I: back)";
   if (view.display == DisplayMode::kHide)
     return object.filled && object.outlined ? "Without it; outlined: filled, invented  (H: back)"
            : object.filled                  ? "Without the object, its hole filled  (H: back)"

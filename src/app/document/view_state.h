@@ -75,7 +75,7 @@ ViewState turned_fill_hole(ViewState view);
 
 // What is known of the object that a pane shows.
 struct ShownObject {
-  bool clean = false, forced = false;  // drawn with clean edges; which the guard had refused
+  bool clean = false;                  // drawn with clean edges
   bool heat = false, looking = false;  // by how many views it was seen is known; is being looked for
   bool filled = false;                 // the hole that it leaves is filled
   bool outlined = false;               // that hole has an outline, or the ground that no view showed

@@ -26,7 +26,7 @@ bool CleanEdges::shows(bool fills) const {
 }
 
 CleanEdges::Asked CleanEdges::asked(bool fills) const {
-  return {fills, leaving_of(ws_.document(), seen_, ws_.view), ws_.clean->is_cleaned_anyway(seen_)};
+  return {fills, leaving_of(ws_.document(), seen_, ws_.view)};
 }
 
 bool CleanEdges::known(const Asked& asked) const {
@@ -48,17 +48,6 @@ void CleanEdges::ask(bool fills) {
     given_up(fills) = now;
 }
 
-void CleanEdges::perform(const CleanAnyway&) {
-  const ObjectItem* object = ws_.document().active_object();
-  if (!ws_.scene || !object || ws_.gaussians_of(object->id) == 0)
-    throw Error("", "There is no object to clean", "Click an object first");
-  ws_.clean->clean_anyway(ws_.labels.labels(ws_.document(), *object, ws_.gaussians()));
-  ws_.tasks.cancel(TaskKind::kClean);  // what it computes is not wanted any more
-  given_up_ = {};
-  ++ws_.view_serial;
-  ws_.view.clean_edges = true;
-}
-
 void CleanEdges::start(const Asked& asked) {
   fills_ = asked.fills;
   const TaskThread::Order order(TaskKind::kClean, [this, asked] { given_up(asked.fills) = asked; });
@@ -74,7 +63,7 @@ void CleanEdges::start(const Asked& asked) {
       ++ws_.view_serial;
       if (const auto object = clean->known(asked.leaving.labels, asked.leaving.up_world);
           object && !asked.fills && !object->report.cleaned && shows(false))
-        ws_.say(Message::Kind::kInfo, "Edges stay as they are: " + object->report.reason);
+        ws_.say(Message::Kind::kInfo, "Edges stay as they are: " + object->report.why_not);
     });
   });
 }

@@ -3,7 +3,7 @@
 // the user asks for it.
 //
 // A new cut, a scene that opens and a change of labels stop the computation; it starts anew by itself, as it
-// does where up or what is deleted changes, or the user asks to clean anyway.
+// does where up or what is deleted changes.
 #pragma once
 
 #include <array>
@@ -20,7 +20,6 @@ class CleanEdges {
   CleanEdges(Workspace& workspace, const Viewport& viewport, const CutJobs& cuts)
       : ws_(workspace), viewport_(viewport), cuts_(cuts) {}
 
-  void perform(const CleanAnyway&);
   void update();  // starts what is needed; called once a frame
   // Stops the computation that a view waits for, and gives it up as it was asked for. Returns false if no
   // view waits.
@@ -34,7 +33,6 @@ class CleanEdges {
   struct Asked {
     bool fills = false;  // the scene without the object; else the object alone
     Leaving leaving;
-    bool anyway = false;
     bool operator==(const Asked&) const = default;
   };
   Asked asked(bool fills) const;  // of seen_

@@ -275,23 +275,19 @@ void SceneFiles::change_files(std::vector<SceneSource> files, const std::string&
 void SceneFiles::carry_document(const std::shared_ptr<OpenedScene>& scene, const Said& said) {
   const TaskThread::Order order(TaskKind::kLoad, [this] { changing_to_.clear(); });
   ws_.tasks.submit(order, [this, scene, said, before = ws_.scene, history = ws_.history,
-                           serial = ws_.history.serial(),
-                           decided = ws_.clean->decisions()](const Job& job) mutable {
+                           serial = ws_.history.serial()](const Job& job) mutable {
     job.progress("carrying labels", 0);
     CarriedDocument carry(*before, *scene);
     history.carry(std::ref(carry));
-    const std::vector<Flags> anyway = carry.carried(decided);
     Said now = said;
     now.replaced = carry.carried(said.replaced);
     if (job.cancelled()) return;
-    ws_.tasks.post([this, scene, said, now, before, history = std::move(history), serial, decided, anyway] {
-      calls_.in_turn([this, scene, said, now, before, history, serial, decided, anyway] {
+    ws_.tasks.post([this, scene, said, now, before, history = std::move(history), serial] {
+      calls_.in_turn([this, scene, said, now, before, history, serial] {
         if (scene->files.front().id != ws_.scene->files.front().id) return;  // another one was opened
         if (!is_last(*scene)) return say_refused(said.refused);
-        if (before != ws_.scene || serial != ws_.history.serial() || decided != ws_.clean->decisions())
-          return carry_document(scene, said);
+        if (before != ws_.scene || serial != ws_.history.serial()) return carry_document(scene, said);
         files_changed(scene, history, now);
-        ws_.clean = std::make_shared<CleanObjects>(scene, anyway);
       });
     });
   });
@@ -308,7 +304,10 @@ void SceneFiles::files_changed(const std::shared_ptr<OpenedScene>& scene, Histor
   ws_.history.push_other_files(
       said.done.substr(0, said.done.find(';')), next_step_++,
       said.replaced ? with_fill(ws_.document(), *scene, said.replaced) : ws_.document());
-  if (said.replaced) ws_.view.fill_hole = false;  // it is filled
+  if (said.replaced) {
+    ws_.view.fill_hole = false;  // it is filled
+    ws_.ui_requests.push_back(UiRequest::kFillKept);
+  }
   calls_.opened(true);
   const SceneSource* put = scene->file(std::exchange(put_before_view_, 0));
   const glm::vec3& up_world = ws_.document().up_world;

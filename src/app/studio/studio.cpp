@@ -65,8 +65,6 @@ void Studio::dispatch(const Command& command) {
             work_.perform(c);
           else if constexpr (requires { exports_.perform(c); })
             exports_.perform(c);
-          else if constexpr (requires { clean_edges_.perform(c); })
-            clean_edges_.perform(c);
           else if constexpr (requires { edits_.perform(c); })
             edits_.perform(c);
           else if constexpr (requires { perform(c); })

@@ -113,8 +113,7 @@ void files_panel(UiContext& ui) {
   PlacingChoice& choice = ui.state.placing;
   if (scene->files.size() > choice.files_before) {
     ImGui::SetNextItemOpen(true);
-    if (scene->files.back().place != ScenePlace{})
-      choice.file = scene->files.back().id;  // else it has a place
+    choice.file = scene->files.back().id;
   }
   choice.files_before = scene->files.size();
   choice.open = section(ui, "Files", false);

@@ -185,9 +185,6 @@ void clean_edges_choice(UiContext& ui, const std::string& reason) {
   tooltip(reason.empty() ? "Without what the scene around it had hidden, as the object looks alone; else its "
                            "rows as they are"
                          : reason);
-  if (!reason.empty() || !why_edges_stay(ui)) return;
-  same_line_if_fits("Clean anyway", 8);
-  clean_anyway_button(ui);
 }
 
 void fill_hole_choice(UiContext& ui) {
@@ -210,18 +207,6 @@ void leave_finish(UiContext& ui, bool kept) {
   view.clean_edges = before.clean_edges;
   view.fill_hole = before.fill_hole;
   if (view != ui.studio.view()) ui.ask(SetView{view});
-}
-
-std::optional<std::string> why_edges_stay(const UiContext& ui) {
-  const std::optional<CleanReport> clean =
-      ui.studio.view().clean_edges ? ui.studio.clean_edges() : std::nullopt;
-  if (!clean || clean->cleaned || clean->views == 0) return {};
-  return "Edges not cleaned: " + clean->short_reason() + '.';
-}
-
-void clean_anyway_button(UiContext& ui) {
-  if (button(ui, "Clean anyway", kCleanAnywayCosts + std::string(". Alone (I), B shows before and after")))
-    ui.ask(CleanAnyway{});
 }
 
 void muted_text(UiContext& ui, const std::string& text) {

@@ -16,11 +16,6 @@ void fill_hole_choice(UiContext& ui);
 // A dialog with such switches opens, unless it comes back; and ends. Not kept, they are as they were before.
 void remember_finish(UiContext& ui);
 void leave_finish(UiContext& ui, bool kept);
-// Why the active object's edges are not cleaned, although that is wanted and can be had anyway; none: they
-// are.
-std::optional<std::string> why_edges_stay(const UiContext& ui);
-void clean_anyway_button(UiContext& ui);
-
 // A button for an action of the key table: greyed with its reason where it is not allowed, its keys in the
 // tooltip. label: what it shows, an icon or text. on: drawn as switched on. width 0: as wide as its label.
 void action_button(UiContext& ui, Action action, const char* label, bool on = false, float width = 0);

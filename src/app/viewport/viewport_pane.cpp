@@ -88,7 +88,6 @@ const OutlineWorld* ground_outline(const Studio& studio) {
 const char* mode_label(const Studio& studio) {
   const CleanObject* clean = studio.viewport().clean(0).get();
   return label_of(studio.view(), {.clean = clean && clean->report.cleaned,
-                                  .forced = clean && clean->report.forced,
                                   .heat = studio.viewport().style(0).heat != nullptr,
                                   .looking = studio.seen_views().looking(),
                                   .filled = shows_hole_filled(studio),
@@ -191,12 +190,7 @@ std::optional<UiRect> advice_line(UiContext& ui, const ImVec2& at, float right) 
   }
   if (ui.studio.clicks().offer()) return {};
   if (ui.studio.view().display == DisplayMode::kHide) return hole_line(ui, at, right);
-  if (!shows_clean_edges(ui.studio.view())) return {};
-  const std::optional<std::string> why = why_edges_stay(ui);
-  if (!why) return {};
-  const UiRect line = line_before_button(ui, at, right, why->c_str(), "Clean anyway");
-  clean_anyway_button(ui);
-  return line;
+  return {};
 }
 
 // Of the picture, by the tool's options.

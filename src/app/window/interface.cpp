@@ -281,6 +281,9 @@ void Interface::show(UiRequest request, const Studio& studio, UiRenderer* render
       state_.exporting.tried.reset();
       state_.export_open = true;
       return;
+    case UiRequest::kFillKept:
+      state_.placing.files_before = studio.scene()->files.size();
+      return;
     case UiRequest::kHelp:
       state_.help_open = true;
       return;

@@ -25,7 +25,8 @@ enum class UiRequest {
   kHistory,
   kQuit,
   kSnapshotDialog,
-  kExportFailed  // the export dialog shall come back as it was
+  kExportFailed,  // the export dialog shall come back as it was
+  kFillKept       // the file that was added stands where it belongs
 };
 
 }  // namespace splatcut

@@ -17,10 +17,10 @@ namespace {
 
 constexpr double kAgrees = 0.95;
 constexpr double kMostLost = 1.26;  // 1 dB
-constexpr int kLeastViews = 6;
+constexpr int kLeastViews = 6;      // where so many show the object
 constexpr std::size_t kLeastShownPx = 64;
 
-// Those that show the object; the report says how many there are, and how many of them count.
+// Those that show the object; the report says how many there are, and how many of them agree.
 std::vector<OwnView> views_that_show(const CleanInput& input, const GaussianCloud& object,
                                      std::span<const Camera> cameras, CleanReport* report, const Job& job) {
   std::vector<OwnView> views;
@@ -32,12 +32,12 @@ std::vector<OwnView> views_that_show(const CleanInput& input, const GaussianClou
     if (view.shown_px < kLeastShownPx) continue;
     ++report->views;
     report->agreed += view.agreement >= kAgrees;
-    if (view.agreement >= kAgrees || input.anyway) views.push_back(std::move(view));
+    views.push_back(std::move(view));
   }
   return views;
 }
 
-// Leaves those that count, and of the others the best, up to as many as it takes.
+// Leaves those that agree, and of the others the best, up to as many as it takes.
 void keep_best(std::vector<OwnView>* views) {
   std::vector<std::size_t> best(views->size());
   std::iota(best.begin(), best.end(), 0);
@@ -49,13 +49,6 @@ void keep_best(std::vector<OwnView>* views) {
   std::vector<OwnView> kept;
   for (const std::size_t v : best) kept.push_back(std::move((*views)[v]));
   *views = std::move(kept);
-}
-
-std::string why_not(const CleanReport& report) {
-  return report.short_reason() + (report.views < kLeastViews
-                                      ? fmt::format("; it takes {} from which it shows as much", kLeastViews)
-                                      : ". Either something that other things hide is selected, too, or a "
-                                        "piece of it is missing: take away the one, or add the other");
 }
 
 // Steps 1 to 3, or the last two alone; `kept` says what left. Returns what was cut off.
@@ -91,10 +84,9 @@ CleanObject cleaned(const CleanInput& input, std::span<const Camera> cameras, co
   CleanObject object = as_labelled(input);
   CleanReport& report = object.report;
   std::vector<OwnView> views = views_that_show(input, object.cloud, cameras, &report, job);
-  if (report.agreed < kLeastViews || 2 * report.agreed < report.views) {
-    report.reason = why_not(report);
-    if (!input.anyway || views.empty()) return object;
-    report.forced = true;
+  if (views.empty()) {
+    report.why_not = "no side shows it";
+    return object;
   }
   keep_best(&views);
   report.used = static_cast<int>(views.size());
@@ -122,18 +114,11 @@ CleanObject cleaned(const CleanInput& input, std::span<const Camera> cameras, co
 
 }  // namespace
 
-std::string CleanReport::short_reason() const {
-  if (views >= kLeastViews || agreed < views)
-    return fmt::format("from {} of {} side{} it looks different alone than in the scene", views - agreed,
-                       views, views == 1 ? "" : "s");
-  return fmt::format("it is seen from {} side{} only", views, views == 1 ? "" : "s");
-}
-
 CleanObject clean_object(const CleanInput& input, const OwnViewOptions& options, const Job& job) {
   constexpr int kLeastGaussians = 8;
   if (std::ranges::count_if(input.labels, std::identity()) < kLeastGaussians) {
     CleanObject few = as_labelled(input);
-    few.report.reason = fmt::format("{} Gaussians have no edges", few.gaussian.size());
+    few.report.why_not = fmt::format("{} Gaussians have no edges", few.gaussian.size());
     return few;
   }
   const std::vector<Camera> cameras =

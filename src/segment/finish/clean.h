@@ -9,13 +9,11 @@
 // No Gaussian is added; labels and the scene stay as they are. What the rest of the scene loses and gets back
 // where it is written without the object: forget.h.
 //
-// The guard: a view counts where the object alone and its labels within the scene agree in .95 of their
-// pixels. Labels that are not yet right show it there: fewer than 6 such views, or fewer than half of those
-// that show the object, and the object stays as it is, which the report says. Asked to clean anyway, it goes
-// by the views that count, and by those of the others that agree best, up to 6: labels that lack a piece then
-// cost what lies around that piece.
+// It goes by the views in which the object alone and its labels within the scene agree in .95 of their
+// pixels, and by those of the others that agree best, up to 6. Where labels lack a piece, less than a
+// twentieth of what is seen of it goes with what lies around that piece.
 //
-// A second one: where all that makes the object less like its own pictures on black, by more than 1 dB, what
+// The guard: where all that makes the object less like its own pictures on black, by more than 1 dB, what
 // was cut off was seen. Nothing is cut off then; steps 2 and 3 stay.
 //
 // Constants were chosen on five captures with masks of photographs and held on others: docs/edges.md.
@@ -40,28 +38,19 @@ struct CleanInput {
   Drawer scene;                          // with blocks, its drawings pass over what they do not show
   std::span<const std::uint8_t> labels;  // per Gaussian, 1 = object
   glm::vec3 up_world{0, -1, 0};
-  std::span<const Camera> cameras;  // of the capture, may be empty
-  bool rest = false;                // whether CleanObject::rest is wanted
-  bool anyway = false;              // it is cleaned even where the guard says no, if any view shows it
+  std::span<const Camera> cameras;             // of the capture, may be empty
+  bool rest = false;                           // whether CleanObject::rest is wanted
   std::span<const std::uint8_t> leaving = {};  // see forget.h
 };
 
 struct CleanReport {
   bool cleaned = false;
-  bool forced = false;        // the guard said no, and it is cleaned anyway
-  std::string reason;         // of the guard, where it said no: a sentence without a full stop
-  int views = 0, agreed = 0;  // that show the object; those of them that count
+  std::string why_not;        // a sentence without a full stop; empty: it is cleaned
+  int views = 0, agreed = 0;  // that show the object; those of them that agree
   int used = 0;               // those that it is cleaned by
-  bool uncut = false;         // the second guard said no
+  bool uncut = false;         // the guard said no
   std::size_t left = 0, split = 0, made_solid = 0, recoloured = 0;  // Gaussians
-
-  std::string short_reason() const;  // the reason where views were looked at, as a clause
 };
-
-// What CleanInput::anyway may cost, for whoever decides.
-inline constexpr const char* kCleanAnywayCosts =
-    "It goes by the sides that agree best. Skirts and halos leave; where the selection lacks a piece, more "
-    "around that piece is cut off";
 
 // Index that no Gaussian of a scene has.
 inline constexpr std::uint32_t kNoGaussian = 0xffffffff;
@@ -74,7 +63,7 @@ struct CleanObject {
   CleanReport report;
 };
 
-// Where the guard says no and is heeded, all labelled Gaussians as they are.
+// Where it is not cleaned, all labelled Gaussians as they are.
 CleanObject clean_object(const CleanInput& input, const OwnViewOptions& options = {}, const Job& job = {});
 
 }  // namespace splatcut

@@ -45,7 +45,7 @@ TEST_CASE("cut makes edges clean, says what it did, and does not change labels")
   REQUIRE(place.run(life.cut(click + " --edges keep -o edges_as_they_are")).code == 0);
   const json report = json::parse(place.text("edges_clean/report.json")), edges = report["edges"];
   REQUIRE(edges["edges"] == "clean");
-  CHECK(has_keys(edges, {"views", "agreed", "ms", "left", "split", "made_solid", "recoloured"}));
+  CHECK(has_keys(edges, {"views", "agreed", "used", "ms", "left", "split", "made_solid", "recoloured"}));
   const std::size_t written = json::parse(place.run("info edges_clean/object.ply --json").out)["gaussians"];
   CHECK(edges["gaussians"] == written);
   CHECK(report["object"]["gaussians"] == written + edges["left"].get<std::size_t>());
@@ -123,35 +123,6 @@ TEST_CASE(
     CHECK(found == unlabelled - ghosts);
   }
   CHECK(changed > 0);
-}
-
-TEST_CASE("cut --edges clean-anyway cleans what the guard keeps, and says that and how many views agree") {
-  const StillLife& life = still_life();
-  const Workplace& place = life.place;
-  REQUIRE(place.run("make-scene thick -o thick --gaussians 60000 --straddling --skirts").code == 0);
-  const json seeds = json::parse(place.text("thick/seeds.json"));
-  std::string click;
-  for (const json& thing : seeds["objects"])
-    if (thing["object"] == "orange")
-      click = thing["clicks"][0]["x"].dump() + "," + thing["clicks"][0]["y"].dump();
-  const std::string cut = "cut " + (place / "thick/thick.ply").string() + " --cameras " +
-                          (place / "thick/cameras.json").string() + " --camera 0 --click " + click + " ";
-  const auto kept = place.run(cut + "-o thick_kept"),
-             forced = place.run(cut + "--edges clean-anyway -o thick_forced");
-  REQUIRE(kept.code == 0);
-  REQUIRE(forced.code == 0);
-  CHECK(kept.out.find("--edges clean-anyway cleans them now. ") != std::string::npos);
-  CHECK(forced.out.find("edges are cleaned anyway, by 6 views") != std::string::npos);
-  const json as_it_is = json::parse(place.text("thick_kept/report.json"))["edges"],
-             edges = json::parse(place.text("thick_forced/report.json"))["edges"];
-  REQUIRE(as_it_is["edges"] == "keep");
-  REQUIRE(edges["edges"] == "clean");
-  CHECK(edges["forced"] == true);
-  CHECK(edges["used"] == 6);
-  CHECK(edges["agreed"] == as_it_is["agreed"]);
-  CHECK(edges["doubt"] == as_it_is["why_kept"]);
-  CHECK(edges["gaussians"].get<std::size_t>() + edges["left"].get<std::size_t>() == as_it_is["gaussians"]);
-  CHECK(place.text("thick_forced/labels.u8") == place.text("thick_kept/labels.u8"));
 }
 
 TEST_CASE("cut --edges: the same bytes on one thread and on three, and a wrong word is refused") {

@@ -1,4 +1,4 @@
-// Clean edges in the window: when they are computed, what is shown, what was decided of them.
+// Clean edges in the window: when they are computed, and what is shown.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -9,28 +9,11 @@
 using namespace splatcut;
 using namespace splatcut::testing;
 
-namespace {
-
-// Without the larger half of its Gaussians the apple, alone, looks from no side as in the scene.
-void leave_the_small_ones(HeadlessApp& app) {
-  const auto labels = app.studio().labels(app.studio().document().active);
-  const std::vector<float> size = property_values(*app.studio().scene()->cloud, Property::kSize);
-  std::vector<float> own;
-  for (std::size_t g = 0; g < size.size(); ++g)
-    if (labels[g]) own.push_back(size[g]);
-  const auto middle = own.begin() + static_cast<std::ptrdiff_t>(own.size() / 2);
-  std::ranges::nth_element(own, middle);
-  app.studio().apply(SelectRange{Property::kSize, *middle, 1e9f, SetOperation::kRemove});
-  REQUIRE(app.settle());
-}
-
-}  // namespace
-
 TEST_CASE("hands: alone, the object is drawn with clean edges, beside itself as it is, or as it is") {
   Hands hands = hands_on_sample();
   take_what_touches_it(hands);
   const CleanObject clean = cleaned_without_window(hands);
-  CAPTURE(clean.report.reason);
+  CAPTURE(clean.report.why_not);
   REQUIRE(changed(clean.report));
   const ObjectId object = hands.studio().document().active;
   const std::uint64_t document = hands.studio().history().serial();
@@ -132,78 +115,6 @@ TEST_CASE("hands: while a changed object is cleaned anew, what stays of it keeps
   if (second) CHECK(second->report.cleaned);
 }
 
-TEST_CASE("hands: edges that the guard keeps are cleaned anyway by a button, shown and exported so") {
-  const ScratchFolder folder("anyway");
-  Hands hands = hands_on_sample();
-  leave_the_small_ones(hands.app);
-  const std::size_t labelled = hands.selected();
-  hands.app.key('I');
-  REQUIRE(hands.app.settle());
-  hands.app.frames(2);
-  const auto before = hands.studio().clean_edges();
-  REQUIRE(before);
-  REQUIRE_FALSE(before->cleaned);
-  REQUIRE(before->views > 0);
-  CHECK_FALSE(hands.studio().viewport().clean(0));
-  const UiRect button = hands.app.button("Clean anyway");
-  REQUIRE(button.size().x > 0);
-  hands.app.click(0.5f * (button.min + button.max));
-  REQUIRE(hands.app.settle());
-  const auto clean = hands.studio().viewport().clean(0);
-  REQUIRE(clean);
-  CHECK(clean->report.forced);
-  const OpenedScene& scene = *hands.studio().scene();
-  const CleanObject expected =
-      clean_object({*scene.cloud, hands.studio().labels(hands.studio().document().active),
-                    hands.studio().document().up_world, scene.views().cameras, false, true});
-  CHECK(clean->gaussian == expected.gaussian);
-  CHECK(clean->cloud.position == expected.cloud.position);
-  hands.studio().apply(
-      Export{{ExportWhat::kObject, SceneFormat::kPly, folder / "anyway.ply", false, {}, true}});
-  REQUIRE(hands.app.settle());
-  CHECK(load_scene(folder / "anyway.ply").cloud.size() == expected.cloud.size());
-  CHECK(hands.said().find("edges cleaned anyway") != std::string::npos);
-  hands.studio().apply(Export{{ExportWhat::kRest, SceneFormat::kPly, folder / "rest.ply", false, {}, true}});
-  REQUIRE(hands.app.settle());
-  CHECK(hands.said().find("edges cleaned anyway") != std::string::npos);
-  SaveTurntable turn{.path = folder / "turn", .frames = 2, .clean_edges = true};
-  turn.width_px = turn.height_px = 64;
-  hands.studio().apply(turn);
-  REQUIRE(hands.app.settle());
-  CHECK(hands.said().find("edges cleaned anyway") != std::string::npos);
-  // Other labels are another question.
-  hands.studio().apply(EditSelection{SelectionEdit::kShrink});
-  REQUIRE(hands.app.settle());
-  hands.app.frames(2);
-  const auto after = hands.studio().clean_edges();
-  REQUIRE(after);
-  REQUIRE_FALSE(after->cleaned);
-  CHECK_FALSE(after->forced);
-  CHECK(hands.selected() != labelled);
-}
-
-TEST_CASE("hands: what the guard says and its button fit into a small window") {
-  HeadlessApp app(640, 480);
-  app.interface_state().hint_wanted = false;
-  app.open(kSample);
-  REQUIRE(app.settle());
-  app.click(app.screen_of(kOnApple));
-  REQUIRE(app.settle());
-  leave_the_small_ones(app);
-  app.key('I');
-  app.wait_for_message_to_go();
-  REQUIRE(app.studio().clean_edges());
-  REQUIRE_FALSE(app.studio().clean_edges()->cleaned);
-  const UiRect button = app.button("Clean anyway"), view = app->interface().viewport();
-  REQUIRE(button.size().x > 0);
-  CHECK(button.min.x >= view.min.x);
-  CHECK(button.max.x <= view.max.x);
-  app.click(0.5f * (button.min + button.max));
-  REQUIRE(app.settle());
-  REQUIRE(app.studio().clean_edges());
-  CHECK(app.studio().clean_edges()->forced);
-}
-
 TEST_CASE("hands: edges are cleaned anew where up changes") {
   Hands hands = hands_on_sample();
   hands.app.key('I');
@@ -220,67 +131,12 @@ TEST_CASE("hands: edges are cleaned anew where up changes") {
   CHECK(hands.studio().viewport().clean(0) != before);
 }
 
-TEST_CASE("hands: to clean anyway is decided while the worker finds out that edges stay") {
-  Hands hands = hands_on_sample();
-  leave_the_small_ones(hands.app);
-  hands.app.key('I');
-  REQUIRE(hands.app.frames_until([&] { return hands.studio().progress().kind == TaskKind::kClean; }));
-  hands.studio().apply(CleanAnyway{});
-  REQUIRE(hands.app.settle());
-  hands.app.frames(2);
-  REQUIRE(hands.studio().viewport().clean(0));
-  CHECK(hands.studio().viewport().clean(0)->report.forced);
-}
-
-TEST_CASE("hands: what was decided of edges outlives files that are added and taken out") {
-  Hands hands = hands_on_sample();
-  leave_the_small_ones(hands.app);
-  hands.app.key('I');
-  hands.studio().apply(CleanAnyway{});
-  REQUIRE(hands.app.settle());
-  const auto forced = [&] {
-    REQUIRE(hands.app.settle());
-    hands.app.frames(120);
-    REQUIRE(hands.app.settle());
-    const auto clean = hands.studio().clean_edges();
-    return clean && clean->forced;
-  };
-  CHECK(forced());
-  hands.studio().apply(AddScene{.path = kSmallSample});
-  CHECK(forced());
-  hands.studio().apply(Undo{});
-  CHECK(forced());
-  hands.studio().apply(Redo{});
-  CHECK(forced());
-  hands.studio().apply(RemoveScene{hands.studio().scene()->files.back().id});
-  CHECK(forced());
-}
-
-TEST_CASE("clean objects: so many decisions are kept, and equal labels are one") {
-  Hands hands(false);
-  CleanObjects clean(std::shared_ptr<const OpenedScene>(std::shared_ptr<void>(), hands.studio().scene()));
-  std::vector<std::uint8_t> labels(hands.studio().scene()->cloud->size(), 0);
-  const auto numbered = [&](std::size_t i) {
-    std::vector<std::uint8_t> one = labels;
-    one[i] = 1;
-    return make_flags(std::move(one));
-  };
-  for (std::size_t i = 0; i < CleanObjects::kMostDecisions; ++i) clean.clean_anyway(numbered(i));
-  clean.clean_anyway(numbered(0));
-  CHECK(clean.decisions().size() == CleanObjects::kMostDecisions);
-  clean.clean_anyway(numbered(CleanObjects::kMostDecisions));
-  CHECK(clean.decisions().size() == CleanObjects::kMostDecisions);
-  CHECK(clean.is_cleaned_anyway(numbered(0)));
-  CHECK_FALSE(clean.is_cleaned_anyway(numbered(1)));
-  CHECK(clean.is_cleaned_anyway(numbered(2)));
-}
-
 TEST_CASE("clean objects: labels that were only asked about are not kept") {
   Hands hands(false);
   CleanObjects clean(std::shared_ptr<const OpenedScene>(std::shared_ptr<void>(), hands.studio().scene()));
   Flags labels = make_flags(std::vector<std::uint8_t>(hands.studio().scene()->cloud->size(), 0));
   const std::weak_ptr<Flags::element_type> seen = labels;
-  CHECK_FALSE(clean.is_cleaned_anyway(labels));
+  CHECK_FALSE(clean.known(labels, {0, -1, 0}));
   labels.reset();
   CHECK(seen.expired());
 }

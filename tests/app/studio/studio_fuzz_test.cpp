@@ -99,7 +99,7 @@ class Fuzz {
       case 33:
         return chance(50) ? studio_.apply(NextBackdrop{}) : studio_.apply(SetBackdrop{whole(6)});
       case 34:
-        return chance(50) ? studio_.apply(ComeNearer{}) : studio_.apply(CleanAnyway{});
+        return studio_.apply(ComeNearer{});
       case 35:
         return studio_.apply(IntersectStroke{camera(), stroke()});
       default:
