@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <utility>
 
 #include "app/console/kept_inputs.h"
 #include "app/document/carried_document.h"
@@ -82,23 +83,24 @@ void SceneFiles::perform(const OpenScene& c) {
     if (file && !added.empty())
       throw Error(path.filename().string(), "is saved work: other scenes cannot be opened with it",
                   "Open it, then add them");
-    if (file) files = file->files;
-    for (SceneSource& source : files) source.id = id++;
+    for (SceneSource& source : file ? file->files : files) source.id = id++;
     std::vector<std::string> refused = refused_work(&added);
-    const std::shared_ptr<OpenedScene> scene = open_first(files, &added, &refused, job);
+    const std::shared_ptr<OpenedScene> scene =
+        file ? open_scene(file->files, job, nullptr, &refused) : open_first(files, &added, &refused, job);
     if (job.cancelled()) return;
     scene->serial = serial;
     std::optional<RestoredWork> work;
     if (file) work = restored(*file, *scene);
-    ws_.tasks.post(
-        [this, scene, work, id, added, axes, refused, work_path = file ? path : std::filesystem::path()] {
-          next_file_id_ = std::max(next_file_id_, id);
-          if (!is_last(*scene)) return;
-          opened(scene, work, work_path);
-          for (const std::string& remark : scene->remarks) ws_.say(Message::Kind::kInfo, remark);
-          if (work && !work->warning.empty()) ws_.say(Message::Kind::kInfo, work->warning);
-          add_all(added, axes, refused);
-        });
+    if (file && !refused.empty()) refused.push_back(std::exchange(work->warning, {}) + '.');
+    ws_.tasks.post([this, scene, work, id, added, axes, refused,
+                    work_path = file && refused.empty() ? path : std::filesystem::path()] {
+      next_file_id_ = std::max(next_file_id_, id);
+      if (!is_last(*scene)) return;
+      opened(scene, work, work_path);
+      for (const std::string& remark : scene->remarks) ws_.say(Message::Kind::kInfo, remark);
+      if (work && !work->warning.empty()) ws_.say(Message::Kind::kInfo, work->warning);
+      add_all(added, axes, refused);
+    });
   });
 }
 

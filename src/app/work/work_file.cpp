@@ -25,6 +25,8 @@ using nlohmann::json;
 // version 9.
 constexpr int kOldest = 7, kVersion = 9;
 
+constexpr std::size_t kMostRows = std::size_t{1} << 28;  // of a file that is missing
+
 json parse(const std::filesystem::path& path) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored))
@@ -64,6 +66,7 @@ std::filesystem::path path_from(const json& said, const std::string& key, const 
 
 json source_json(const SceneSource& file, const std::filesystem::path& work) {
   json source = {{"hash", fmt::format("{:016x}", file.hash)}, {"gaussians", file.gaussians}};
+  if (file.file_rows != file.gaussians) source["rows"] = file.file_rows;
   put_path(file.path, work, "path", &source);
   if (!file.cameras.empty()) put_path(file.cameras, work, "cameras", &source);
   if (file.spz_axes) source["spz_axes"] = name_of(*file.spz_axes);
@@ -84,6 +87,9 @@ SceneSource source_from(const json& said, const std::filesystem::path& work) {
   const std::string hash = said.at("hash");
   if (std::from_chars(hash.data(), hash.data() + hash.size(), file.hash, 16).ec != std::errc())
     throw Error(work.string(), "does not say which scene it belongs to: its \"hash\" is no number");
+  file.gaussians = said.value("gaussians", std::size_t{0});
+  file.file_rows = said.value("rows", file.gaussians);
+  if (file.file_rows > kMostRows) throw Error(work.string(), "names a file of more rows than any has");
   file.spz_axes = spz_axes_from_name(said.value("spz_axes", ""));
   file.lod = said.value("lod", 0u);                         // older work holds none
   const json origin = said.value("origin", json{0, 0, 0});  // older work holds none
@@ -144,13 +150,18 @@ bool WorkFile::holds_nothing() const {
 }
 
 RestoredWork restored(const WorkFile& file, const OpenedScene& opened) {
-  if (file.files.size() != opened.files.size())
-    throw Error(file.path.string(), "belongs to a scene of other files");
-  for (std::size_t i = 0; i < file.files.size(); ++i)
-    if (file.files[i].hash != opened.files[i].hash)
+  std::vector<GoneRows> gone;
+  std::size_t found = 0, row = 0;
+  for (const SceneSource& said : file.files) {
+    const bool there = found < opened.files.size() && opened.files[found].hash == said.hash;
+    if (!there && (row == 0 || opened.files.size() == file.files.size()))
       throw Error(file.path.string(),
-                  fmt::format("belongs to another version of {}", file.files[i].path.filename().string()),
+                  fmt::format("belongs to another version of {}", said.path.filename().string()),
                   "Its labels would be wrong; open the scene itself to start anew");
+    if (!there) gone.push_back({row, said.file_rows});
+    row += there ? opened.files[found++].file_rows : said.file_rows;
+  }
+  if (found != opened.files.size()) throw Error(file.path.string(), "belongs to a scene of other files");
   const Scene& scene = *opened.scene;
   try {
     const json& work = *file.content;
@@ -159,8 +170,9 @@ RestoredWork restored(const WorkFile& file, const OpenedScene& opened) {
     std::string unknown_preset;
     Document document = document_from(
         work, objects,
-        [&scene](const json& runs, std::uint8_t most) { return flags_from(runs, scene, most); },
+        [&](const json& runs, std::uint8_t most) { return flags_from(runs, scene, most, gone); },
         &unknown_preset);
+    for (ObjectItem& object : document.objects) object.cut_kept |= object.cut && !gone.empty();
     RestoredWork out{std::move(document), {}, {}, {}};
     if (!unknown_preset.empty())
       add_warning(
@@ -170,7 +182,13 @@ RestoredWork restored(const WorkFile& file, const OpenedScene& opened) {
           &out);
     out.saved_as = work.value("saved_as", "");
     if (work.contains("view")) out.view = pose_from(work.at("view"));
-    if (work.contains("history")) read_history(work["history"], scene, &out);
+    if (!gone.empty())
+      add_warning(
+          "the work is shown without what is missing, and no earlier step can be undone. The saved "
+          "work stays as it is: save this under another name",
+          &out);
+    else if (work.contains("history"))
+      read_history(work["history"], scene, &out);
     return out;
   } catch (const Error& error) {
     throw Error(file.path.string(), error.unstopped());

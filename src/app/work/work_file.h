@@ -46,8 +46,10 @@ bool is_work_file(const std::filesystem::path& path);  // true if the name ends 
 // read.
 WorkFile read_work_file(const std::filesystem::path& path);
 
-// Reads the document of a work file. scene: the opened scene of WorkFile::files; its cloud gives the arrays
-// their order. Throws Error if the scene has other files, or if a file's hash is another.
+// Reads the document of a work file. scene: the opened scene of WorkFile::files; its cloud gives the
+// arrays their order. Files that were added may be missing from it: what was labelled in them
+// is left out, labels stay as they are until the next stroke, and there is no history. Throws Error if the
+// scene has other files, or if a file's hash is another.
 RestoredWork restored(const WorkFile& file, const OpenedScene& scene);
 
 void write_work_file(const std::filesystem::path& path, const OpenedScene& scene, const Document& document,

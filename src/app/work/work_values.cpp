@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 #include <nlohmann/json.hpp>
+#include <ranges>
 
 #include "app/console/seeds_file.h"
 #include "core/error.h"
@@ -140,19 +141,24 @@ json runs_json(const Flags& flags, const Scene& scene) {
   return out;
 }
 
-Flags flags_from(const json& j, const Scene& scene, std::uint8_t most) {
+Flags flags_from(const json& j, const Scene& scene, std::uint8_t most, std::span<const GoneRows> gone) {
   if (j.is_null()) return nullptr;
   std::vector<std::uint8_t> rows;
-  rows.reserve(scene.file_rows);
+  std::size_t all = scene.file_rows;
+  for (const GoneRows& g : gone) all += g.count;
+  rows.reserve(all);
   for (std::size_t i = 0; i + 1 < j.size(); i += 2) {
     const auto value = j.at(i).get<unsigned>();
     const auto run = j.at(i + 1).get<std::size_t>();
-    if (value > most || run > scene.file_rows - rows.size())
-      throw Error("labels", fmt::format("run {} does not fit the scene's {} rows", i / 2, scene.file_rows));
+    if (value > most || run > all - rows.size())
+      throw Error("labels", fmt::format("run {} does not fit the scene's {} rows", i / 2, all));
     rows.insert(rows.end(), run, static_cast<std::uint8_t>(value));
   }
-  if (rows.size() != scene.file_rows)
-    throw Error("labels", fmt::format("cover {} of {} rows", rows.size(), scene.file_rows));
+  if (rows.size() != all) throw Error("labels", fmt::format("cover {} of {} rows", rows.size(), all));
+  for (const GoneRows& g : std::views::reverse(gone)) {
+    const auto first = rows.begin() + static_cast<std::ptrdiff_t>(g.first);
+    rows.erase(first, first + static_cast<std::ptrdiff_t>(g.count));
+  }
   std::vector<std::uint8_t> flags(scene.cloud.size());
   for (std::size_t g = 0; g < flags.size(); ++g) flags[g] = rows[scene.cloud.file_row[g]];
   return make_flags(std::move(flags));

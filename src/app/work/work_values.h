@@ -4,6 +4,7 @@
 
 #include <glm/glm.hpp>
 #include <nlohmann/json_fwd.hpp>
+#include <span>
 
 #include "app/document/camera_pose.h"
 #include "app/document/document.h"
@@ -27,6 +28,11 @@ Strokes strokes_from(const nlohmann::json& j);
 // Flags as [value, run, value, run, ...] over the rows of the scene's files; a null pointer is null. most:
 // the largest value that a flag may have.
 nlohmann::json runs_json(const Flags& flags, const Scene& scene);
-Flags flags_from(const nlohmann::json& j, const Scene& scene, std::uint8_t most);
+// gone: rows of files that the scene lacks now, ascending.
+struct GoneRows {
+  std::size_t first = 0, count = 0;
+};
+Flags flags_from(const nlohmann::json& j, const Scene& scene, std::uint8_t most,
+                 std::span<const GoneRows> gone = {});
 
 }  // namespace splatcut

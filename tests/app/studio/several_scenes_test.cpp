@@ -9,6 +9,7 @@
 #include "app/cli/work_cut.h"
 #include "app/document/carried_document.h"
 #include "app/work/work_file.h"
+#include "core/byte_hash.h"
 #include "hands.h"
 #include "opened_sample.h"
 #include "scene/formats/merged_scene.h"
@@ -55,6 +56,41 @@ TEST_CASE("several scenes: the window shows the merge, labels and history stay w
   CHECK(by_row(studio, studio.labels(1)) == grown);
 }
 
+TEST_CASE(
+    "several scenes: saved work opens without a file that is missing, which is said, and is not changed") {
+  const ScratchFolder folder("several_missing");
+  Hands hands;
+  Studio& studio = hands.studio();
+  const auto apple = active_by_row(studio);
+  add(hands, small_scene(folder));
+  add(hands, small_scene(folder, "c.ply", 7));
+  for (const std::size_t i : {1, 2}) studio.apply(SelectScene{studio.scene()->files[i].id});
+  REQUIRE(hands.app.settle());
+  const auto file = folder / "missing.splatcut.json";
+  studio.apply(SaveWork{file});
+  REQUIRE(hands.app.settle());
+  const auto labels = active_by_row(studio);
+  REQUIRE(count_flags(labels) > count_flags(apple));
+  const std::filesystem::path missing = studio.scene()->files[1].path;
+  const std::size_t rows = studio.scene()->files[1].file_rows;
+  std::filesystem::remove(missing);
+  const std::uint64_t before = hash_of_file(file);
+
+  CHECK_THROWS_AS(open_scene(read_work_file(file).files), Error);  // as `cut --work` opens it
+  Hands other(false);
+  other.app.open(file);
+  REQUIRE(other.app.settle());
+  REQUIRE(other.studio().scene()->files.size() == 2);
+  std::vector<std::uint8_t> left = labels;
+  const auto first = left.begin() + static_cast<std::ptrdiff_t>(apple.size());
+  left.erase(first, first + static_cast<std::ptrdiff_t>(rows));
+  CHECK(active_by_row(other.studio()) == left);
+  CHECK(other.said().find(missing.filename().string()) != std::string::npos);
+  CHECK(other.said().find("save this under another name") != std::string::npos);
+  CHECK(other.studio().work().work_path().empty());
+  CHECK(hash_of_file(file) == before);
+}
+
 TEST_CASE("several scenes: saved work holds them, and what was cut before is kept until the next stroke") {
   const ScratchFolder folder("several_saved");
   Hands hands;
@@ -91,11 +127,6 @@ TEST_CASE("several scenes: saved work holds them, and what was cut before is kep
   read.objects[0].cut = nullptr;
   CHECK(same(computed_again(*scene, read), cut));
 
-  std::filesystem::remove(folder / "small.ply");
-  studio.apply(OpenScene{file});
-  REQUIRE(hands.app.settle());
-  CHECK(hands.said().find("small.ply") != std::string::npos);
-  CHECK(studio.scene()->files.size() == 2);  // the open one stays
   small_scene(folder, "small.ply", 7);
   studio.apply(OpenScene{file});
   REQUIRE(hands.app.settle());
