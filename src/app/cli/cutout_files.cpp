@@ -148,7 +148,6 @@ nlohmann::json clean_json(const std::optional<CleanReport>& clean) {
     return json;
   }
   json["used"] = clean->used;
-  if (clean->uncut) json["uncut"] = true;
   json.update({{"left", clean->left},
                {"split", clean->split},
                {"made_solid", clean->made_solid},

@@ -51,11 +51,11 @@ void keep_best(std::vector<OwnView>* views) {
   *views = std::move(kept);
 }
 
-// Steps 1 to 3, or the last two alone; `kept` says what left. Returns what was cut off.
-std::vector<CutOff> finish(std::span<const OwnView> views, bool cuts, std::vector<std::uint8_t>* kept,
+// Steps 1 to 3; `kept` says what left. Returns what was cut off.
+std::vector<CutOff> finish(std::span<const OwnView> views, std::vector<std::uint8_t>* kept,
                            CleanObject* object, const Job& job) {
   CleanReport& report = object->report;
-  CarveReport carved = cuts ? carve(views, &object->cloud, kept, job) : CarveReport{};
+  CarveReport carved = carve(views, &object->cloud, kept, job);
   report.left = carved.left;
   report.split = carved.split;
   report.made_solid = make_solid(views, *kept, &object->cloud, job);
@@ -96,13 +96,14 @@ CleanObject cleaned(const CleanInput& input, std::span<const Camera> cameras, co
     as_it_is.squares += view.error.squares;
     as_it_is.inside_px += view.error.inside_px;
   }
-  std::vector<CutOff> cut_off = finish(views, true, &kept, &object, job);
-  report.uncut = std::ranges::count(kept, 1) == 0 ||
-                 own_picture_error(views, object.cloud, kept, job).mean() > kMostLost * as_it_is.mean();
-  if (report.uncut) {
-    object.cloud = permuted(input.scene.cloud(), object.gaussian);
-    std::ranges::fill(kept, 1);
-    cut_off = finish(views, false, &kept, &object, job);
+  const std::vector<CutOff> cut_off = finish(views, &kept, &object, job);
+  if (std::ranges::count(kept, 1) == 0 ||
+      own_picture_error(views, object.cloud, kept, job).mean() > kMostLost * as_it_is.mean()) {
+    CleanObject same = as_labelled(input);
+    same.report.views = report.views;
+    same.report.agreed = report.agreed;
+    same.report.why_not = "what it would lose is seen in the scene";
+    return same;
   }
   if (input.rest)
     object.rest =

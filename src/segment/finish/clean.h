@@ -13,8 +13,8 @@
 // pixels, and by those of the others that agree best, up to 6. Where labels lack a piece, less than a
 // twentieth of what is seen of it goes with what lies around that piece.
 //
-// The guard: where all that makes the object less like its own pictures on black, by more than 1 dB, what
-// was cut off was seen. Nothing is cut off then; steps 2 and 3 stay.
+// The guard: where all that makes the object less like its own pictures on black, by more than 1 dB, what was
+// cut off was seen, and the object stays as it is.
 //
 // Constants were chosen on five captures with masks of photographs and held on others: docs/edges.md.
 // Same input, same bits, on any number of threads. Cost: one drawing of the scene a view, two of the part of
@@ -48,7 +48,6 @@ struct CleanReport {
   std::string why_not;        // a sentence without a full stop; empty: it is cleaned
   int views = 0, agreed = 0;  // that show the object; those of them that agree
   int used = 0;               // those that it is cleaned by
-  bool uncut = false;         // the guard said no
   std::size_t left = 0, split = 0, made_solid = 0, recoloured = 0;  // Gaussians
 };
 

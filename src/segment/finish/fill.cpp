@@ -124,7 +124,7 @@ SurfacePatch fill_surface(const Drawer& scene, std::span<const std::uint8_t> lab
   if (!below) return patch;
   constexpr float kLeastShare = 0.12f;  // less lies in any plane by chance
   if (below->share < kLeastShare) {
-    patch.why_not = "no flat surface was found that the object touches";
+    patch.why_not = "what surrounds the object is uneven, or a haze: there is no flat surface to continue";
     return patch;
   }
   const SurfaceMap& map = below->map;
