@@ -20,7 +20,7 @@ std::string what_changed(const std::vector<std::uint8_t>& before, const std::vec
   }
   const std::size_t removed = was + added - is;
   if (was == 0) return fmt::format("{} cut out in {:.1f} s", gaussians_text(is), seconds);
-  if (added + removed == 0) return gaussians_text(is) + ", as before: that changed nothing";
+  if (added + removed == 0) return gaussians_text(is) + ", as before";
   return fmt::format("{}, {} added and {} removed in {:.1f} s", gaussians_text(is), grouped(added),
                      grouped(removed), seconds);
 }
@@ -93,8 +93,8 @@ std::string shared_with(const Document& document, ObjectId id, const LabelsOfObj
     for (std::size_t g = 0; object->cut && object->of_others && g < own->size(); ++g)
       kept += (*object->cut)[g] & (*object->of_others)[g] & (*labels)[g] & !(*own)[g];
     if (kept > 0)
-      return fmt::format(". {} keeps {} that it already had; the menu of {} has a way to take them, too",
-                         other.name, gaussians_text(kept), object->name);
+      return fmt::format(". {} that {} had before stay its own; the menu of {} has a way to take them, too",
+                         gaussians_text(kept), other.name, object->name);
     for (std::size_t g = 0; g < own->size(); ++g) both += (*own)[g] & (*labels)[g];
     if (2 * both > count_flags(*labels) && both > 0)
       return fmt::format(". {} of {}'s are in it, too", grouped(both), other.name);

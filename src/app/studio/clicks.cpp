@@ -93,6 +93,8 @@ void Clicks::perform(const RemoveStroke& c) {
 }
 
 bool Clicks::found_nothing() const {
+  const ObjectItem* object = ws_.document().active_object();
+  if (!object || !any_mark(*object)) return false;  // nothing was sought
   const CutRun* run = cuts_.run(ws_.document().active);
   return run && !run->running && run->result && run->result->outcome == Outcome::kNothingFound;
 }
@@ -155,10 +157,11 @@ std::string Clicks::why_not_step(int steps) const {
   if (!known) {
     const Stroke* last = last_stroke(object->views);
     const bool may_have = last->is_click() || last == first_stroke(object->views);
+    const CutRun* run = cuts_.run(object->id);
     return !may_have ? "The last stroke has no sizes: only clicks have, and what began the object"
-           : cuts_.comes(*object) || !cuts_.run(object->id)
-               ? ""
-               : "The last click changed nothing, so it has no other size";
+           : cuts_.comes(*object) || !run ? ""
+           : run->changed_nothing         ? "The last click changed nothing, so it has no other size"
+                                  : "The last click means the spot around it alone: it has no other size";
   }
   const std::size_t size = size_wanted(), last = known->count() - 1;
   if (last == 0) return "The click means one size alone";
@@ -251,6 +254,9 @@ void Clicks::refresh_hover() {
     return;
   }
   if (hover_ && hover_->same_but_pixel(*ask) && hover_->pixel == ask->pixel) return;
+  constexpr float kElsewherePoints = 40;  // what was outlined there is not meant any more
+  if (hover_ && glm::distance(hover_->pixel, ask->pixel) > kElsewherePoints * viewport_.pixels_per_point())
+    show_hover(nullptr, false);
   if (ws_.tasks.busy(TaskKind::kHover)) return;
   hover_ = ask;
   if (ask->by_colour) return ask_by_colour(*ask);

@@ -29,7 +29,8 @@ Document with_fill(Document document, const OpenedScene& scene, const Flags& rep
   for (std::size_t g = 0; document.deleted && g < deleted.size(); ++g) deleted[g] |= (*document.deleted)[g];
   document.deleted = make_flags(std::move(deleted));
   const ObjectId active = document.active;
-  ObjectItem& fill = add_object(&document, "Fill");
+  ObjectItem& fill = add_object(&document, kFillName);
+  fill.visible = false;  // one looks at it as it is
   set_labels(&document, &fill, gaussians_of(scene, scene.files.back().id));
   document.active = active;
   return document;

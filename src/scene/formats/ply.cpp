@@ -357,7 +357,7 @@ std::uint64_t ply_row_bytes(const Scene& scene, bool rows_copied) {
 FormatPlan plan_ply(const Scene& scene, std::span<const std::uint32_t> gaussians, bool moved) {
   const bool rows_copied = scene.rows_can_be_copied && !moved;
   FormatPlan plan;
-  plan.bytes = gaussians.size() * ply_row_bytes(scene, rows_copied) + 1500;
+  plan.bytes = gaussians.size() * ply_row_bytes(scene, rows_copied) + 420 + 24 * scene.cloud.sh_stride();
   plan.kept = rows_copied
                   ? "Every property of every row, byte for byte as in the source file."
                   : "Places, sizes, turns, opacities and colours, in the way that other programs read.";

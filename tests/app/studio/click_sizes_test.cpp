@@ -65,9 +65,11 @@ TEST_CASE("clicks: sizes are of the last click, also from another view and of a 
   // A right click on the mug: the wheel takes less or more of it, undo goes back step by step.
   const glm::vec2 on_it = artist.inside(first);
   Labels corrected;
+  glm::vec2 clicked(0);
   const StrokeSizes* sizes = nullptr;
   for (const glm::vec2& away : {glm::vec2(-30, 0), {30, 0}, {0, -30}, {0, 30}}) {  // not all have two sizes
-    artist.click(on_it + away, PointerButton::kRight);
+    clicked = on_it + away;
+    artist.click(clicked, PointerButton::kRight);
     corrected = artist.labels();
     sizes = artist.studio().clicks().known_sizes();
     if (sizes && sizes->count() > 1 && count_flags(corrected) < count_flags(first)) break;
@@ -90,8 +92,16 @@ TEST_CASE("clicks: sizes are of the last click, also from another view and of a 
   artist.app.key('Z', {.ctrl = true});
   REQUIRE(artist.app.settle());
   CHECK(artist.labels() == corrected);
-  artist.app.move(artist.on_screen({80, 80}));
   const CameraPose pose = artist.studio().camera().pose();
+  artist.app.move(artist.on_screen({80, 80}));
+  artist.app.move(clicked);  // back on its dot
+  artist.app->handle(WheelTurned{static_cast<float>(notch), {}});
+  REQUIRE(artist.app.settle());
+  CHECK(last_stroke(artist.object().views)->size_step == notch);
+  CHECK(artist.studio().camera().pose() == pose);
+  artist.app.key('Z', {.ctrl = true});
+  REQUIRE(artist.app.settle());
+  artist.app.move(artist.on_screen({80, 80}));
   artist.app->handle(WheelTurned{1, {}});  // elsewhere the wheel goes nearer
   CHECK(artist.studio().camera().pose().position_world != pose.position_world);
 }

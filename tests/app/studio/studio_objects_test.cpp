@@ -69,7 +69,7 @@ TEST_CASE("hands: a new object leaves to the others what they have, unless it is
   CHECK(shared(right) == 0);
   CHECK(hands.selected() > 0);
   CHECK(std::ranges::any_of(studio.messages(), [](const Message& m) {
-    return m.text.find("Object 1 keeps") != std::string::npos;
+    return m.text.find("that Object 1 had before stay its own") != std::string::npos;
   }));
   const ScratchFolder folder("of_others");
   studio.apply(SaveWork{folder / "two.splatcut.json"});
