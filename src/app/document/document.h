@@ -56,8 +56,6 @@ struct ObjectItem {
   std::vector<ObjectId> leaves_also;
 };
 
-inline constexpr const char* kFillName = "Fill";  // name of an object that fills the hole of another
-
 inline constexpr std::size_t kMostObjects = 255;  // limit, as one byte per Gaussian names its object
 
 struct Document {

@@ -145,10 +145,12 @@ bool History::push(std::string title, Document after, std::string merge_key) {
   return true;
 }
 
-void History::push_other_files(std::string title, std::uint64_t number, Document document) {
+void History::push_other_files(std::string title, std::uint64_t number) {
   forget_redo();
-  Entry entry{std::move(title), {}, std::move(document), {}, number};
-  entry.keys = keys_of(entry.document, entries_[cursor_]);
+  Entry entry = entries_[cursor_];
+  entry.title = std::move(title);
+  entry.merge_key.clear();
+  entry.other_files = number;
   entries_.push_back(std::move(entry));
   ++cursor_;
   merging_ = false;

@@ -72,8 +72,8 @@ class History {
   bool push(std::string title, Document after, std::string merge_key = {});
   // True if a push with this key would replace the step at the cursor.
   bool merges(std::string_view merge_key) const;
-  // Adds a step to other files, see Entry::other_files, and to that document. Forgets what could be redone.
-  void push_other_files(std::string title, std::uint64_t number, Document document);
+  // Adds a step that leaves the document as it is, see Entry::other_files. Forgets what could be redone.
+  void push_other_files(std::string title, std::uint64_t number);
   void forget_redo();
   void undo();
   void redo();

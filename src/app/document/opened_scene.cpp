@@ -80,16 +80,16 @@ void choose_level(SceneSource* file, std::vector<std::string>* remarks) {
 
 Scene load(SceneSource* file, const OpenedScene* before, const Job& job, std::vector<std::string>* remarks) {
   std::string of_cameras;
-  std::vector<Camera> cameras = cameras_of(*file, glm::dvec3(0), &of_cameras);
+  const SceneSource* known = before ? before->file(file->id) : nullptr;
+  std::vector<Camera> cameras = known ? known->views->cameras : cameras_of(*file, glm::dvec3(0), &of_cameras);
   choose_level(file, remarks);
   Scene scene = load_scene(file->path, {file->spz_axes, cameras, file->lod.value_or(0), file->origin}, job);
   if (job.cancelled()) return scene;
-  if (scene.origin != glm::dvec3(0)) cameras = cameras_of(*file, scene.origin, nullptr);
-  if (file->cameras.empty() && stand_otherwise(cameras, scene.up)) {
+  if (scene.origin != glm::dvec3(0) && !known) cameras = cameras_of(*file, scene.origin, nullptr);
+  if (file->cameras.empty() && !known && stand_otherwise(cameras, scene.up)) {
     cameras.clear();
     file->cameras_are_others = true;
   }
-  const SceneSource* known = before ? before->file(file->id) : nullptr;
   const std::uint64_t hash = hash_of_file(scene.path);
   if (known && known->hash != hash)
     throw Error(scene.path.string(), "was changed by another program since it was opened", "Open it again");

@@ -4,7 +4,6 @@
 
 #include "app/document/export_plan.h"
 #include "app/document/words.h"
-#include "core/error.h"
 
 namespace splatcut {
 

@@ -45,6 +45,7 @@ class Clicks {
   float sizes_opacity() const;                                   // opacity of sizes(), from 1 to 0
   bool sizes_fade() const { return sizes() && !on_last_dot(); }  // true: it changes with time
   // Mark under the pointer, whose click one of the other label would take away; null: none.
+  bool wheel_takes_sizes() const { return on_last_dot() && known_sizes(); }
   const StrokeMark* pointed_mark() const;
   // True if the active object's clicks found nothing, mostly because they were made from too far away.
   bool found_nothing() const;
@@ -87,7 +88,7 @@ class Clicks {
   std::optional<HoverAsk> hover_wanted() const;
   bool asks_ahead() const;
   bool can_ask() const;
-  bool on_last_dot() const { return ws_.tools.scale_armed() && viewport_.mark_at(ws_.tools.pointer_px()); }
+  bool on_last_dot() const;  // the pointer is on the dot of the object's last stroke
   void refresh_hover();
   void ask_by_colour(const HoverAsk& ask);
   void make_ready();

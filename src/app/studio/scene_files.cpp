@@ -23,15 +23,16 @@ bool same_files(const std::vector<SceneSource>& a, const std::vector<SceneSource
   });
 }
 
-// The document in which the scene's last file is an object, and what it replaces is deleted.
-Document with_fill(Document document, const OpenedScene& scene, const Flags& replaced) {
+// The document in which the file is an object, where there is room for one, and what it replaces is deleted.
+Document with_fill(Document document, const OpenedScene& scene, std::uint32_t file, const Flags& replaced) {
   std::vector<std::uint8_t> deleted = *replaced;
   for (std::size_t g = 0; document.deleted && g < deleted.size(); ++g) deleted[g] |= (*document.deleted)[g];
   document.deleted = make_flags(std::move(deleted));
+  if (document.objects.size() >= kMostObjects) return document;
   const ObjectId active = document.active;
-  ObjectItem& fill = add_object(&document, kFillName);
-  fill.visible = false;  // one looks at it as it is
-  set_labels(&document, &fill, gaussians_of(scene, scene.files.back().id));
+  ObjectItem& fill = add_object(&document, "Fill");
+  fill.visible = false;  // no tint and no outline
+  set_labels(&document, &fill, gaussians_of(scene, file));
   document.active = active;
   return document;
 }
@@ -84,15 +85,22 @@ void SceneFiles::perform(const OpenScene& c) {
     if (file && !added.empty())
       throw Error(path.filename().string(), "is saved work: other scenes cannot be opened with it",
                   "Open it, then add them");
-    for (SceneSource& source : file ? file->files : files) source.id = id++;
     std::vector<std::string> refused = refused_work(&added);
+    for (SceneSource& source : file ? file->files : files) {
+      source.id = id++;
+      std::error_code ignored;
+      if (!file || source.cameras.empty() || std::filesystem::exists(source.cameras, ignored)) continue;
+      refused.push_back(source.cameras.string() + ": is not there. The cameras beside the scene are taken");
+      source.cameras.clear();
+    }
     const std::shared_ptr<OpenedScene> scene =
         file ? open_scene(file->files, job, nullptr, &refused) : open_first(files, &added, &refused, job);
     if (job.cancelled()) return;
     scene->serial = serial;
     std::optional<RestoredWork> work;
     if (file) work = restored(*file, *scene);
-    if (file && !refused.empty()) refused.push_back(std::exchange(work->warning, {}) + '.');
+    if (file && !refused.empty() && !work->warning.empty())
+      refused.push_back(std::exchange(work->warning, {}) + '.');
     ws_.tasks.post([this, scene, work, id, added, axes, refused,
                     work_path = file && refused.empty() ? path : std::filesystem::path()] {
       next_file_id_ = std::max(next_file_id_, id);
@@ -145,6 +153,7 @@ void SceneFiles::cancel_loading() {
   ++next_scene_serial_;  // what is on its way is not the last
   ws_.tasks.cancel(TaskKind::kLoad);
   changing_to_.clear();
+  filling_.reset();
   opening_.clear();
 }
 
@@ -188,26 +197,30 @@ void SceneFiles::perform(const KeepFill& c) {
   const std::shared_ptr<const SceneWithout> without = calls_.without();
   if (!without || without->patch.changes.given_back.empty())
     throw Error("", "No hole is filled", "Fill one first: Ctrl+H");
-  if (ws_.document().objects.size() >= kMostObjects)
-    throw Error("", "There are too many objects", "Remove some");
   refuse_written_inputs(c.path, ws_.scene->scene->files);
   ws_.tasks.submit(TaskKind::kExport, [this, path = c.path, without, scene = ws_.scene,
-                                       up = ws_.document().up_world](const Job&) {
+                                       up = ws_.document().up_world](const Job& job) {
     save_scene(path, with_cloud(*scene->scene, without->patch.changes.given_back), {}, SceneFormat::kPly,
                {.up = up});
+    if (job.cancelled()) return;
     ws_.tasks.post([this, path, without, scene] {
-      if (scene != ws_.scene)
-        return ws_.say(Message::Kind::kInfo, path.string() + " is written; the scene has changed meanwhile");
-      std::vector<SceneSource> files = wanted_files();
-      files.push_back({.id = next_file_id_++, .path = path});
+      if (scene != ws_.scene || calls_.without() != without || filling_)
+        return ws_.say(Message::Kind::kRefused,
+                       path.string() + " is written, but not added: what it fills has changed meanwhile");
       std::vector<std::uint8_t> replaced(ws_.gaussians(), 0);
       for (const std::uint32_t g : without->patch.changes.ghosts) replaced[g] = 1;
+      filling_ = {next_file_id_, ws_.document().active, make_flags(std::move(replaced))};
+      std::vector<SceneSource> files = wanted_files();
+      files.push_back({.id = next_file_id_++, .path = path});
       change_files(std::move(files), "Keeping what fills the hole",
-                   {.done = "Fill kept; it is an object, and a file of the scene",
-                    .refused = {},
-                    .replaced = make_flags(std::move(replaced))});
+                   {"Fill kept; it is an object, and a file of the scene", {}});
     });
   });
+}
+
+bool SceneFiles::fills_hole_of(ObjectId object) const {
+  return std::ranges::any_of(
+      filled_, [&](const Fill& fill) { return fill.object == object && ws_.scene->file(fill.file); });
 }
 
 void SceneFiles::perform(const PlaceScene& c) {
@@ -278,25 +291,25 @@ void SceneFiles::change_files(std::vector<SceneSource> files, const std::string&
 void SceneFiles::carry_document(const std::shared_ptr<OpenedScene>& scene, const Said& said) {
   const TaskThread::Order order(TaskKind::kLoad, [this] { changing_to_.clear(); });
   ws_.tasks.submit(order, [this, scene, said, before = ws_.scene, history = ws_.history,
-                           serial = ws_.history.serial()](const Job& job) mutable {
+                           serial = ws_.history.serial(), fill = filling_](const Job& job) mutable {
     job.progress("carrying labels", 0);
     CarriedDocument carry(*before, *scene);
     history.carry(std::ref(carry));
-    Said now = said;
-    now.replaced = carry.carried(said.replaced);
+    const Flags replaced = fill && scene->file(fill->file) ? carry.carried(fill->replaced) : nullptr;
     if (job.cancelled()) return;
-    ws_.tasks.post([this, scene, said, now, before, history = std::move(history), serial] {
-      calls_.in_turn([this, scene, said, now, before, history, serial] {
+    ws_.tasks.post([this, scene, said, replaced, before, history = std::move(history), serial] {
+      calls_.in_turn([this, scene, said, replaced, before, history, serial] {
         if (scene->files.front().id != ws_.scene->files.front().id) return;  // another one was opened
         if (!is_last(*scene)) return say_refused(said.refused);
         if (before != ws_.scene || serial != ws_.history.serial()) return carry_document(scene, said);
-        files_changed(scene, history, now);
+        files_changed(scene, history, said, replaced);
       });
     });
   });
 }
 
-void SceneFiles::files_changed(const std::shared_ptr<OpenedScene>& scene, History history, const Said& said) {
+void SceneFiles::files_changed(const std::shared_ptr<OpenedScene>& scene, History history, const Said& said,
+                               const Flags& replaced) {
   preparing_stopped_ = false;
   if (same_files(changing_to_, scene->files)) changing_to_.clear();
   ws_.history.forget_redo();
@@ -304,10 +317,10 @@ void SceneFiles::files_changed(const std::shared_ptr<OpenedScene>& scene, Histor
   undone_files_.clear();
   take(scene);
   ws_.history = std::move(history);
-  ws_.history.push_other_files(
-      said.done.substr(0, said.done.find(';')), next_step_++,
-      said.replaced ? with_fill(ws_.document(), *scene, said.replaced) : ws_.document());
-  if (said.replaced) {
+  ws_.history.push_other_files(said.done.substr(0, said.done.find(';')), next_step_++);
+  if (const auto fill = std::exchange(filling_, {}); fill && replaced) {
+    ws_.history.push("Fill as an object", with_fill(ws_.document(), *scene, fill->file, replaced));
+    filled_.push_back({fill->file, fill->object, nullptr});
     ws_.view.fill_hole = false;  // it is filled
     ws_.ui_requests.push_back(UiRequest::kFillKept);
   }
@@ -458,6 +471,8 @@ void SceneFiles::opened(const std::shared_ptr<OpenedScene>& scene, const std::op
   opening_.clear();
   before_files_.clear();
   undone_files_.clear();
+  filling_.reset();
+  filled_.clear();
   take(scene);
   Document start;
   start.up_world = scene->views().up_world;

@@ -49,6 +49,9 @@ class SceneFiles {
   // What is said while another scene is opened, until it is there; empty: none is.
   const std::string& opening() const { return opening_; }
 
+  // True if the hole of that object is filled by a file that was kept (KeepFill).
+  bool fills_hole_of(ObjectId object) const;
+
   // Place of one of the scene's files once the changes under way are done.
   ScenePlace place_to_be(std::uint32_t file) const;
 
@@ -81,13 +84,14 @@ class SceneFiles {
     // View that is then to show the whole scene, unless the user has left it; none: it stays.
     std::optional<CameraPose> seen_from = {};
     std::optional<glm::vec3> put_on_world = {};  // where an added file may have come to stand in that view
-    Flags replaced = {};  // what leaves where the last file fills a hole; null: it fills none
   };
   void change_files(std::vector<SceneSource> files, const std::string& doing, Said said);
   void say_refused(const std::vector<std::string>& refused);
   bool is_last(const OpenedScene& scene) const;
   void carry_document(const std::shared_ptr<OpenedScene>& scene, const Said& said);
-  void files_changed(const std::shared_ptr<OpenedScene>& scene, History history, const Said& said);
+  // replaced: what leaves with the file that fills a hole; null: none came.
+  void files_changed(const std::shared_ptr<OpenedScene>& scene, History history, const Said& said,
+                     const Flags& replaced);
 
   Workspace& ws_;
   Viewport& viewport_;
@@ -100,6 +104,14 @@ class SceneFiles {
   std::uint64_t next_scene_serial_ = 1;
   std::uint32_t next_file_id_ = 1;
   std::vector<SceneSource> changing_to_;  // files of the scene that is being made; empty: none is made
+
+  struct Fill {
+    std::uint32_t file = 0;
+    ObjectId object = 0;  // whose hole it fills
+    Flags replaced;       // Gaussians of the present scene that it stands in place of
+  };
+  std::optional<Fill> filling_;  // of a file that is on its way
+  std::vector<Fill> filled_;     // of those that came, without the last member
 
   // A scene with everything that was made from it, kept to go back to as a whole.
   struct Kept {

@@ -183,6 +183,8 @@ bool Studio::hide_cursor() {
 
 void Studio::wheel(float steps, const Modifiers& modifiers) {
   if (!ws_.scene) return;
+  const bool sizes = !modifiers.alt && clicks_.wheel_takes_sizes();
+  if (!flight().moving() && sizes && steps != 0) return apply(StepScale{steps > 0 ? 1 : -1});
   if (!flight().moving())
     return run_all(ws_.tools.wheel(steps, modifiers, viewport_.tool_context(ws_.tools.pointer_px())));
   constexpr float kSpeedStep = 1.25f, kSlowest = 0.02f, kFastest = 50;

@@ -10,7 +10,8 @@ namespace splatcut {
 
 namespace {
 
-constexpr float kDragPoints = 4;      // less is a click
+constexpr float kDragPoints = 4;  // less is a click
+constexpr float kScaleLeavePoints = 12;
 constexpr float kPathStepPoints = 2;  // points of a path are no closer
 
 // Nothing that the middle of the picture shows lies before the pivot: in a room the scene's middle may be
@@ -61,7 +62,8 @@ std::vector<Command> PointerTools::move(const glm::vec2& pixel, const Modifiers&
   const glm::vec2 delta = pixel - state_.pointer_px;
   const float per_point = context.pixels_per_point;
   state_.pointer_px = pixel;
-  if (glm::length(pixel - state_.scale_at_px) > state_.scale_reach_px) state_.at_last_click = false;
+  if (glm::length(pixel - state_.scale_at_px) > kScaleLeavePoints * per_point)
+    state_.scale_armed = state_.at_last_click = false;
   if (!state_.button) return {};
   state_.modifiers = modifiers;
   if (drag_ == Drag::kMaybeClick && glm::length(pixel - state_.pressed_px) > kDragPoints * per_point) {
@@ -134,8 +136,7 @@ std::vector<Command> PointerTools::wheel(float steps, const Modifiers& modifiers
     view.brush_px = std::clamp(view.brush_px * std::pow(kBrushStep, steps), kLeastBrushPx, kMostBrushPx);
     return {SetView{view}};
   }
-  if (context.camera.goal() != state_.scale_pose) state_.scale_armed = false;
-  if ((scale_armed() || modifiers.shift) && steps != 0) return {StepScale{steps > 0 ? 1 : -1}};
+  if ((state_.scale_armed || modifiers.shift) && steps != 0) return {StepScale{steps > 0 ? 1 : -1}};
   const glm::vec2& at = state_.pointer_px;
   const float depth = context.depth(at).value_or(context.camera.pose().distance);
   context.camera.zoom(steps, context.pane_camera.world_from_pixel(at, depth));

@@ -29,11 +29,7 @@ class PointerTools {
   bool dragging() const { return state_.button.has_value(); }
   bool at_work() const { return !state_.path_px.empty() || !state_.corners_px.empty(); }
   bool moves_camera() const { return drag_ == Drag::kOrbit || drag_ == Drag::kPan; }
-  // True: the wheel steps through parts, as it does where the last click was made.
-  bool scale_armed() const {
-    return state_.scale_armed &&
-           glm::distance(state_.pointer_px, state_.scale_at_px) <= state_.scale_reach_px;
-  }
+  bool scale_armed() const { return state_.scale_armed; }  // true: the wheel steps through parts
   // True: the pointer has not left the place of the last click, whose mark it does not mean.
   bool at_last_click() const { return state_.at_last_click; }
   void leave_last_click() { state_.at_last_click = false; }  // the view moved below the pointer

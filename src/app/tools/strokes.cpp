@@ -22,10 +22,7 @@ void click_object(ToolHand& hand) {
   const bool adds = state.at_last_click || state.modifiers.alt;
   const auto gone = adds ? std::nullopt : hand.context.contradicted(hand.at_px, label);
   state.at_last_click = !gone;
-  constexpr float kScaleReachPoints = 12;
   state.scale_at_px = hand.at_px;
-  state.scale_reach_px = kScaleReachPoints * hand.context.pixels_per_point;
-  state.scale_pose = hand.context.camera.goal();
   if (gone) {
     state.scale_armed = false;
     return hand.ask(*gone);

@@ -67,10 +67,8 @@ struct ToolState {
   SetOperation volume_set = SetOperation::kAdd;  // operation that `volume` was made with
   std::optional<std::size_t> handle;             // handle that is dragged
   bool scale_armed = false;                      // true: the wheel steps through parts ...
-  glm::vec2 scale_at_px{0};    // ... where the pointer stands near this place of a click ...
-  float scale_reach_px = 0;    // ... within so much ...
-  CameraPose scale_pose;       // ... in the view in which that was made
-  bool at_last_click = false;  // true: the pointer has not left that place since
+  glm::vec2 scale_at_px{0};                      // ... while the pointer stays near this place of a click
+  bool at_last_click = false;                    // true: the pointer has not left that place since
 
   bool right() const { return button == PointerButton::kRight; }
   bool rest() const { return right() || modifiers.ctrl; }

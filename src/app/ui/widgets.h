@@ -1,7 +1,6 @@
 // Small pieces that all panels use.
 #pragma once
 
-#include <optional>
 #include <string>
 
 #include "app/document/words.h"
@@ -16,6 +15,7 @@ void fill_hole_choice(UiContext& ui);
 // A dialog with such switches opens, unless it comes back; and ends. Not kept, they are as they were before.
 void remember_finish(UiContext& ui);
 void leave_finish(UiContext& ui, bool kept);
+
 // A button for an action of the key table: greyed with its reason where it is not allowed, its keys in the
 // tooltip. label: what it shows, an icon or text. on: drawn as switched on. width 0: as wide as its label.
 void action_button(UiContext& ui, Action action, const char* label, bool on = false, float width = 0);

@@ -164,10 +164,9 @@ UiRect line_before_button(const UiContext& ui, const ImVec2& at, float right, co
 // Without the object: its hole can be filled, or is.
 UiRect hole_line(UiContext& ui, const ImVec2& at, float right) {
   const bool fills = ui.studio.view().fill_hole;
-  const std::vector<ObjectItem>& objects = ui.studio.document().objects;
-  const bool kept = std::ranges::count(objects, kFillName, &ObjectItem::name) > 0;
+  const bool kept = ui.studio.files().fills_hole_of(ui.studio.document().active);
   const std::string text = fills  ? ui.studio.finish().hole_text()
-                           : kept ? std::string("The object ") + kFillName + " fills a hole."
+                           : kept ? "Its hole is filled."
                                   : "It may leave a hole.";
   const char* label = fills ? "Leave the hole" : "Fill the hole";
   const auto without = fills ? ui.studio.finish().without() : nullptr;

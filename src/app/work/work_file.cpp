@@ -89,7 +89,6 @@ SceneSource source_from(const json& said, const std::filesystem::path& work) {
     throw Error(work.string(), "does not say which scene it belongs to: its \"hash\" is no number");
   file.gaussians = said.value("gaussians", std::size_t{0});
   file.file_rows = said.value("rows", file.gaussians);
-  if (file.file_rows > kMostRows) throw Error(work.string(), "names a file of more rows than any has");
   file.spz_axes = spz_axes_from_name(said.value("spz_axes", ""));
   file.lod = said.value("lod", 0u);                         // older work holds none
   const json origin = said.value("origin", json{0, 0, 0});  // older work holds none
@@ -151,15 +150,22 @@ bool WorkFile::holds_nothing() const {
 
 RestoredWork restored(const WorkFile& file, const OpenedScene& opened) {
   std::vector<GoneRows> gone;
-  std::size_t found = 0, row = 0;
-  for (const SceneSource& said : file.files) {
-    const bool there = found < opened.files.size() && opened.files[found].hash == said.hash;
-    if (!there && (row == 0 || opened.files.size() == file.files.size()))
+  std::size_t found = 0, row = 0, gone_rows = 0;
+  const bool all = opened.files.size() == file.files.size();
+  for (std::size_t i = 0; i < file.files.size(); ++i) {
+    const SceneSource& said = file.files[i];
+    const SceneSource* there = all ? &opened.files[i] : i == 0 ? &opened.files.front() : opened.file(said.id);
+    if (there && there->hash != said.hash)
       throw Error(file.path.string(),
                   fmt::format("belongs to another version of {}", said.path.filename().string()),
                   "Its labels would be wrong; open the scene itself to start anew");
-    if (!there) gone.push_back({row, said.file_rows});
-    row += there ? opened.files[found++].file_rows : said.file_rows;
+    if (!there) {
+      gone.push_back({row, said.file_rows});
+      gone_rows += said.file_rows;
+      if (gone_rows > kMostRows) throw Error(file.path.string(), "names files of more rows than any has");
+    }
+    found += there != nullptr;
+    row += there ? there->file_rows : said.file_rows;
   }
   if (found != opened.files.size()) throw Error(file.path.string(), "belongs to a scene of other files");
   const Scene& scene = *opened.scene;
@@ -180,7 +186,7 @@ RestoredWork restored(const WorkFile& file, const OpenedScene& opened) {
                       "is computed by \"{}\"",
                       unknown_preset, out.document.preset),
           &out);
-    out.saved_as = work.value("saved_as", "");
+    if (gone.empty()) out.saved_as = work.value("saved_as", "");
     if (work.contains("view")) out.view = pose_from(work.at("view"));
     if (!gone.empty())
       add_warning(

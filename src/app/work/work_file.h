@@ -1,13 +1,13 @@
 // The work file (.splatcut.json): a scene and the document that was made of it. It is text, and is written
 // whole or not at all.
 //
-// The file holds path, hash and place of each file of the scene; a path is relative if the file lies beside
-// or below the work file. It holds the document: strokes with their cameras in full float precision, hand
-// marks and labels as run lengths over the rows of the scene, and settings. It also holds the user's camera,
-// and the steps that can be undone and redone, see work_history.h. The labels of an object are a function of
-// scene, strokes, settings and marks, so that `splatcut cut --work` computes the same bits again. Labels that
-// are older than the scene's present files (ObjectItem::cut_kept) are kept as they are. Errors: Error names
-// the file and the entry.
+// The file holds path, hash, number of rows, cameras that were asked for and place of each file of the scene;
+// a path is relative if the file lies beside or below the work file. It holds the document: strokes with
+// their cameras in full float precision, hand marks and labels as run lengths over the rows of the scene, and
+// settings. It also holds the user's camera, and the steps that can be undone and redone, see work_history.h.
+// The labels of an object are a function of scene, strokes, settings and marks, so that `splatcut cut --work`
+// computes the same bits again. Labels that are older than the scene's present files (ObjectItem::cut_kept)
+// are kept as they are. Errors: Error names the file and the entry.
 #pragma once
 
 #include <filesystem>
@@ -47,9 +47,9 @@ bool is_work_file(const std::filesystem::path& path);  // true if the name ends 
 WorkFile read_work_file(const std::filesystem::path& path);
 
 // Reads the document of a work file. scene: the opened scene of WorkFile::files; its cloud gives the
-// arrays their order. Files that were added may be missing from it: what was labelled in them
-// is left out, labels stay as they are until the next stroke, and there is no history. Throws Error if the
-// scene has other files, or if a file's hash is another.
+// arrays their order. Files that were added may be missing from it, the others have the ids of
+// WorkFile::files: what was labelled in them is left out, labels stay as they are until the next stroke, and
+// there is no history. Throws Error if the scene has other files, or if a file's hash is another.
 RestoredWork restored(const WorkFile& file, const OpenedScene& scene);
 
 void write_work_file(const std::filesystem::path& path, const OpenedScene& scene, const Document& document,

@@ -1,8 +1,9 @@
 // Takes off an object what its labels' own pictures do not show: hidden pieces leave, splats that stick out
 // are cut at the border and the inner part stays.
 //
-// In: the object's Gaussians, its own views (own_views.h) that count. Sums of alpha T over valid pixels of
-// the object drawn alone, per Gaussian: A over all, M inside, F more than 2 px outside; w = M / A.
+// In: the object's Gaussians, those of its own views (own_views.h) that it goes by. Sums of alpha T over
+// valid pixels of the object drawn alone, per Gaussian: A over all, M inside, F more than 2 px outside; w = M
+// / A.
 //   over all views   w < .5 and F / A > .05: leaves. So does what is in no picture, a lump below the table:
 //                    its middle lies 2 % of its depth behind the scene's in all views, and in more than a
 //                    quarter of those that hold it farther than 2 % of the object from the mask

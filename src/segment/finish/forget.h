@@ -1,10 +1,10 @@
 // What the rest of a scene loses with an object that leaves it, and what it gets back: so that no ghost of
 // the object stays where it stood, and what surrounds it looks as before.
 //
-// In: scene, labels, the object's own views that count (own_views.h), what carve.h took off the object. Sums
-// over those views of the whole scene's drawing, per Gaussian: A of alpha T, M of it inside of the object's
-// masks; how far the views agree, sum |2 M_v - A_v| / A. A Gaussian is sure where A > .5 px, they agree by
-// more than .9, and its label is what M / A > .5 says.
+// In: scene, labels, those of the object's own views (own_views.h) that it goes by, what carve.h took off the
+// object. Sums over those views of the whole scene's drawing, per Gaussian: A of alpha T, M of it inside of
+// the object's masks; how far the views agree, sum |2 M_v - A_v| / A. A Gaussian is sure where A > .5 px,
+// they agree by more than .9, and its label is what M / A > .5 says.
 //   given back  what carve.h took off the object and whose 8 nearest sure ones are mostly the rest's
 //   ghosts      of the rest, in the object's box, M / A > .5 or A < .5 px, and most of their 8 nearest sure
 //               ones are the object's; but for those that what surrounds the object needs: the rest is drawn

@@ -151,7 +151,7 @@ TEST_CASE("history: rows of the list that are called alike say which object and 
   history.push("Hide", document);
   document.find(1)->colour = {1, 2, 3};
   history.push("Colour", document);
-  history.push_other_files("a.ply moved", 1, history.now());
+  history.push_other_files("a.ply moved", 1);
   std::erase_if(document.objects, [](const ObjectItem& o) { return o.id == 1; });
   history.push("Remove object", document);
   std::vector<std::string> rows;

@@ -172,6 +172,7 @@ TEST_CASE("clicks: the next sizes show as long as the wheel takes them, and for 
     CHECK(iou(smaller, artist.shown(artist.labels())) > 0.8);  // the cut moves its border
   }
   REQUIRE(artist.studio().clicks().sizes());
+  artist.app.move(artist.on_screen({80, 80}));
   CHECK(artist.studio().update(0.1));  // the window goes on drawing while they fade
   artist.app->frame(1.9);
   CHECK(artist.studio().clicks().sizes_opacity() < 1);

@@ -192,7 +192,7 @@ TEST_CASE("hands: a click on what is invented is one on what lies below it") {
         0);
 }
 
-TEST_CASE("hands: what fills a hole is kept as an object of its own, in one step that can be undone") {
+TEST_CASE("hands: what fills a hole is kept as an object of its own, which can be undone") {
   const ScratchFolder folder("kept_fill");
   Hands hands = hands_on_sample();
   Studio& studio = hands.studio();
@@ -226,13 +226,52 @@ TEST_CASE("hands: what fills a hole is kept as an object of its own, in one step
   CHECK(error < 0.05);
   CHECK(load_scene(folder / "fill.ply").cloud.size() == invented);
 
+  CHECK(studio.files().fills_hole_of(studio.document().active));
+
   hands.app.key('Z', {.ctrl = true});
   REQUIRE(hands.app.settle());
   CHECK(studio.document().objects.size() == 1);
+  CHECK_FALSE(studio.document().deleted);
+  hands.app.key('Z', {.ctrl = true});
+  REQUIRE(hands.app.settle());
+  CHECK(studio.document().objects.size() == 1);
+  CHECK_FALSE(studio.files().fills_hole_of(studio.document().active));
   CHECK(studio.scene()->cloud->size() == before);
   CHECK(studio.labels(studio.document().active) == object);
   CHECK(std::filesystem::exists(folder / "fill.ply"));
-  hands.app.key('Y', {.ctrl = true});
-  REQUIRE(hands.app.settle());
+  for (int redone = 0; redone < 2; ++redone) {
+    hands.app.key('Y', {.ctrl = true});
+    REQUIRE(hands.app.settle());
+  }
   CHECK(studio.labels(studio.document().objects[1].id) == kept);
+}
+
+TEST_CASE(
+    "hands: a fill that is kept while another file is added stays an object; one of an older hole does not "
+    "come") {
+  const ScratchFolder folder("fill_and_file");
+  Hands hands = hands_on_sample();
+  Studio& studio = hands.studio();
+  keep_edges(hands);
+  press(hands, Action::kFillHole);
+  std::filesystem::copy_file(kSmallSample, folder / "other.compressed.ply");
+  studio.apply(KeepFill{folder / "fill.ply"});
+  REQUIRE(hands.app.frames_until([&] { return studio.files().changing(); }));
+  studio.apply(AddScene{folder / "other.compressed.ply"});
+  REQUIRE(hands.app.settle());
+  REQUIRE(studio.scene()->files.size() == 3);
+  REQUIRE(studio.document().objects.size() == 2);
+  CHECK(count_flags(studio.labels(studio.document().objects[1].id)) == studio.scene()->files[1].gaussians);
+
+  Hands other = hands_on_sample();
+  keep_edges(other);
+  press(other, Action::kFillHole);
+  other.studio().apply(KeepFill{folder / "late.ply"});
+  other.studio().apply(Undo{});  // before it is written
+  REQUIRE(other.app.settle());
+  CHECK(std::filesystem::exists(folder / "late.ply"));
+  CHECK(other.studio().scene()->files.size() == 1);
+  CHECK(std::ranges::any_of(other.studio().messages(), [](const Message& m) {
+    return m.text.find("is written, but not added") != std::string::npos;
+  }));
 }

@@ -121,7 +121,7 @@ TEST_CASE("saved work: steps before and after changes of the scene's files, two 
   SavedSteps saved = saved_steps(history);
   CHECK(saved.steps.size() == 4);
   CHECK(saved.cursor == 3);
-  history.push_other_files("Adding", 1, history.now());
+  history.push_other_files("Adding", 1);
   Document more = history.now();
   add_object(&more, "d");
   history.push("New d", more);

@@ -5,11 +5,13 @@
 #include <fstream>
 #include <glm/gtc/matrix_access.hpp>
 #include <glm/gtc/quaternion.hpp>
+#include <nlohmann/json.hpp>
 
 #include "app/cli/work_cut.h"
 #include "app/document/carried_document.h"
 #include "app/work/work_file.h"
 #include "core/byte_hash.h"
+#include "core/json_file.h"
 #include "hands.h"
 #include "opened_sample.h"
 #include "scene/formats/merged_scene.h"
@@ -89,6 +91,17 @@ TEST_CASE(
   CHECK(other.said().find("save this under another name") != std::string::npos);
   CHECK(other.studio().work().work_path().empty());
   CHECK(hash_of_file(file) == before);
+  // What was restored after a crash does not become the work that was saved as a whole, either.
+  nlohmann::json crashed = json_of_file(file);
+  crashed["saved_as"] = file.string();
+  std::ofstream(folder / "left.splatcut.json") << crashed.dump();
+  WorkFile work = read_work_file(folder / "left.splatcut.json");
+  for (std::size_t i = 0; i < work.files.size(); ++i) work.files[i].id = static_cast<std::uint32_t>(i + 1);
+  std::vector<std::string> refused;
+  const RestoredWork read = restored(work, *open_scene(work.files, {}, nullptr, &refused));
+  CHECK(refused.size() == 1);
+  CHECK(read.saved_as.empty());
+  CHECK(read.document.objects.size() == 1);
 }
 
 TEST_CASE("several scenes: saved work holds them, and what was cut before is kept until the next stroke") {
