@@ -204,7 +204,7 @@ void SceneFiles::perform(const KeepFill& c) {
                {.up = up});
     if (job.cancelled()) return;
     ws_.tasks.post([this, path, without, scene] {
-      if (scene != ws_.scene || calls_.without() != without || filling_)
+      if (scene != ws_.scene || calls_.without() != without || (filling_ && changing()))
         return ws_.say(Message::Kind::kRefused,
                        path.string() + " is written, but not added: what it fills has changed meanwhile");
       std::vector<std::uint8_t> replaced(ws_.gaussians(), 0);

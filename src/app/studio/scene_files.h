@@ -110,7 +110,7 @@ class SceneFiles {
     ObjectId object = 0;  // whose hole it fills
     Flags replaced;       // Gaussians of the present scene that it stands in place of
   };
-  std::optional<Fill> filling_;  // of a file that is on its way
+  std::optional<Fill> filling_;  // of the file that is on its way, or was when the last change failed
   std::vector<Fill> filled_;     // of those that came, without the last member
 
   // A scene with everything that was made from it, kept to go back to as a whole.

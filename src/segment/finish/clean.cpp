@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kAgrees = 0.95;
 constexpr double kMostLost = 1.26;  // 1 dB
-constexpr int kLeastViews = 6;      // where so many show the object
+constexpr int kLeastViews = 6;      // taken, where so many show the object
 constexpr std::size_t kLeastShownPx = 64;
 
 // Those that show the object; the report says how many there are, and how many of them agree.
