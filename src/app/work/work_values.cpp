@@ -5,7 +5,6 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 #include <nlohmann/json.hpp>
-#include <ranges>
 
 #include "app/console/seeds_file.h"
 #include "core/error.h"
@@ -155,9 +154,9 @@ Flags flags_from(const json& j, const Scene& scene, std::uint8_t most, std::span
     rows.insert(rows.end(), run, static_cast<std::uint8_t>(value));
   }
   if (rows.size() != all) throw Error("labels", fmt::format("cover {} of {} rows", rows.size(), all));
-  for (const GoneRows& g : std::views::reverse(gone)) {
-    const auto first = rows.begin() + static_cast<std::ptrdiff_t>(g.first);
-    rows.erase(first, first + static_cast<std::ptrdiff_t>(g.count));
+  for (auto g = gone.rbegin(); g != gone.rend(); ++g) {
+    const auto first = rows.begin() + static_cast<std::ptrdiff_t>(g->first);
+    rows.erase(first, first + static_cast<std::ptrdiff_t>(g->count));
   }
   std::vector<std::uint8_t> flags(scene.cloud.size());
   for (std::size_t g = 0; g < flags.size(); ++g) flags[g] = rows[scene.cloud.file_row[g]];
