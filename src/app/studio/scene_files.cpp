@@ -6,7 +6,6 @@
 #include <functional>
 #include <utility>
 
-#include "app/console/kept_inputs.h"
 #include "app/document/carried_document.h"
 #include "app/document/words.h"
 #include "core/error.h"
@@ -21,20 +20,6 @@ bool same_files(const std::vector<SceneSource>& a, const std::vector<SceneSource
   return std::ranges::equal(a, b, [](const SceneSource& left, const SceneSource& right) {
     return left.id == right.id && (left.onto || left.place == right.place);
   });
-}
-
-// The document in which the file is an object, where there is room for one, and what it replaces is deleted.
-Document with_fill(Document document, const OpenedScene& scene, std::uint32_t file, const Flags& replaced) {
-  std::vector<std::uint8_t> deleted = *replaced;
-  for (std::size_t g = 0; document.deleted && g < deleted.size(); ++g) deleted[g] |= (*document.deleted)[g];
-  document.deleted = make_flags(std::move(deleted));
-  if (document.objects.size() >= kMostObjects) return document;
-  const ObjectId active = document.active;
-  ObjectItem& fill = add_object(&document, "Fill");
-  fill.visible = false;  // no tint and no outline
-  set_labels(&document, &fill, gaussians_of(scene, file));
-  document.active = active;
-  return document;
 }
 
 // As what a step of placing a file is named.
@@ -192,37 +177,6 @@ void SceneFiles::perform(const AddScene& c) {
   change_files(std::move(files), "Adding " + scene_name(c.path), std::move(said));
 }
 
-void SceneFiles::perform(const KeepFill& c) {
-  ws_.require_scene();
-  const std::shared_ptr<const SceneWithout> without = calls_.without();
-  if (!without || without->patch.changes.given_back.empty())
-    throw Error("", "No hole is filled", "Fill one first: Ctrl+H");
-  refuse_written_inputs(c.path, ws_.scene->scene->files);
-  ws_.tasks.submit(TaskKind::kExport, [this, path = c.path, without, scene = ws_.scene,
-                                       up = ws_.document().up_world](const Job& job) {
-    save_scene(path, with_cloud(*scene->scene, without->patch.changes.given_back), {}, SceneFormat::kPly,
-               {.up = up});
-    if (job.cancelled()) return;
-    ws_.tasks.post([this, path, without, scene] {
-      if (scene != ws_.scene || calls_.without() != without || (filling_ && changing()))
-        return ws_.say(Message::Kind::kRefused,
-                       path.string() + " is written, but not added: what it fills has changed meanwhile");
-      std::vector<std::uint8_t> replaced(ws_.gaussians(), 0);
-      for (const std::uint32_t g : without->patch.changes.ghosts) replaced[g] = 1;
-      filling_ = {next_file_id_, ws_.document().active, make_flags(std::move(replaced))};
-      std::vector<SceneSource> files = wanted_files();
-      files.push_back({.id = next_file_id_++, .path = path});
-      change_files(std::move(files), "Keeping what fills the hole",
-                   {"Fill kept; it is an object, and a file of the scene", {}});
-    });
-  });
-}
-
-bool SceneFiles::fills_hole_of(ObjectId object) const {
-  return std::ranges::any_of(
-      filled_, [&](const Fill& fill) { return fill.object == object && ws_.scene->file(fill.file); });
-}
-
 void SceneFiles::perform(const PlaceScene& c) {
   std::vector<SceneSource> files = wanted_files();
   SceneSource& file = added_file(&files, c.file);
@@ -295,7 +249,7 @@ void SceneFiles::carry_document(const std::shared_ptr<OpenedScene>& scene, const
     job.progress("carrying labels", 0);
     CarriedDocument carry(*before, *scene);
     history.carry(std::ref(carry));
-    const Flags replaced = fill && scene->file(fill->file) ? carry.carried(fill->replaced) : nullptr;
+    const Flags replaced = fill && scene->file(fill->of.file) ? carry.carried(fill->replaced) : nullptr;
     if (job.cancelled()) return;
     ws_.tasks.post([this, scene, said, replaced, before, history = std::move(history), serial] {
       calls_.in_turn([this, scene, said, replaced, before, history, serial] {
@@ -318,12 +272,7 @@ void SceneFiles::files_changed(const std::shared_ptr<OpenedScene>& scene, Histor
   take(scene);
   ws_.history = std::move(history);
   ws_.history.push_other_files(said.done.substr(0, said.done.find(';')), next_step_++);
-  if (const auto fill = std::exchange(filling_, {}); fill && replaced) {
-    ws_.history.push("Fill as an object", with_fill(ws_.document(), *scene, fill->file, replaced));
-    filled_.push_back({fill->file, fill->object, nullptr});
-    ws_.view.fill_hole = false;  // it is filled
-    ws_.ui_requests.push_back(UiRequest::kFillKept);
-  }
+  fill_came(*scene, replaced);
   calls_.opened(true);
   const SceneSource* put = scene->file(std::exchange(put_before_view_, 0));
   const glm::vec3& up_world = ws_.document().up_world;

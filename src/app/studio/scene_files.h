@@ -93,6 +93,8 @@ class SceneFiles {
   void files_changed(const std::shared_ptr<OpenedScene>& scene, History history, const Said& said,
                      const Flags& replaced);
 
+  void fill_came(const OpenedScene& scene, const Flags& replaced);
+
   Workspace& ws_;
   Viewport& viewport_;
   CutJobs& cuts_;
@@ -105,13 +107,16 @@ class SceneFiles {
   std::uint32_t next_file_id_ = 1;
   std::vector<SceneSource> changing_to_;  // files of the scene that is being made; empty: none is made
 
-  struct Fill {
+  struct Filled {
     std::uint32_t file = 0;
-    ObjectId object = 0;  // whose hole it fills
-    Flags replaced;       // Gaussians of the present scene that it stands in place of
+    ObjectId object = 0;  // whose hole the file fills
+  };
+  struct Fill {
+    Filled of;
+    Flags replaced;  // Gaussians of the present scene that it stands in place of
   };
   std::optional<Fill> filling_;  // of the file that is on its way, or was when the last change failed
-  std::vector<Fill> filled_;     // of those that came, without the last member
+  std::vector<Filled> filled_;   // of those that came
 
   // A scene with everything that was made from it, kept to go back to as a whole.
   struct Kept {
