@@ -22,12 +22,6 @@ glm::mat3 world_from_camera(const CameraPose& pose) {
   return glm::transpose(glm::mat3_cast(pose.camera_from_world));
 }
 
-// Of the picture above what is covered, which leaves some of it at least.
-float free_height_px(const Camera& camera, float covered_bottom_px) {
-  const auto height = static_cast<float>(camera.height_px);
-  return std::max(0.3f * height, height - covered_bottom_px);
-}
-
 // Across `up`, as near to `direction` as that allows.
 glm::vec3 level(const glm::vec3& direction, const glm::vec3& up) {
   glm::vec3 across = direction - glm::dot(direction, up) * up;
@@ -170,15 +164,13 @@ void CameraController::approach(const glm::vec3& point_world, float share) {
 }
 
 Framing CameraController::framing(std::span<const glm::vec3> points_world, const Camera& camera,
-                                  float covered_bottom_px, const glm::quat& camera_from_world_rotation,
-                                  float least_distance) const {
+                                  const glm::quat& camera_from_world_rotation, float least_distance) const {
   constexpr float kFilled = 0.8f;
   constexpr std::size_t kMostPoints = 60000;
   constexpr double kOutermost = 0.002;  // of the points, on each side
   constexpr int kRounds = 6;            // perspective moves and scales the silhouette a little less in each
   const auto width = static_cast<float>(camera.width_px), height = static_cast<float>(camera.height_px);
-  const float free = free_height_px(camera, covered_bottom_px);
-  const glm::vec2 wanted = kFilled * glm::vec2(width / camera.fx_px, free / camera.fy_px);
+  const glm::vec2 wanted = kFilled * glm::vec2(width / camera.fx_px, height / camera.fy_px);
   CameraPose target = pose_;
   target.camera_from_world = camera_from_world_rotation;
   const glm::mat3 camera_from_world = glm::mat3_cast(camera_from_world_rotation);
@@ -207,22 +199,9 @@ Framing CameraController::framing(std::span<const glm::vec3> points_world, const
   }
   target.distance = std::max({target.distance, least_distance, near_plane_ + least});
   const glm::mat3 axes = world_from_camera(target);
-  const float lower = 0.5f * (height - free) * target.distance / camera.fy_px;
   const glm::vec3 middle_world = axes * middle;
-  target.position_world = middle_world - target.distance * axes[2] + lower * axes[1];
+  target.position_world = middle_world - target.distance * axes[2];
   return {target, middle_world};
-}
-
-void CameraController::keep_clear(const Camera& camera, float covered_bottom_px) {
-  finish_transition();
-  const auto height = static_cast<float>(camera.height_px);
-  const float free = free_height_px(camera, covered_bottom_px);
-  const glm::mat3 axes = world_from_camera(pose_);
-  const glm::vec3 pivot = pivot_world();
-  pose_.distance *= height / free;
-  const float lower = 0.5f * (height - free) * pose_.distance / camera.fy_px;
-  pose_.position_world = pivot - pose_.distance * axes[2] + lower * axes[1];
-  orbit_centre_ = pivot;
 }
 
 void CameraController::frame(const Framing& framing) {

@@ -59,14 +59,10 @@ class CameraController {
   void set_orbit_centre(const glm::vec3& point_world) { orbit_centre_ = point_world; }
   void frame(const Box& box);  // lets the box fill the picture, from the same direction
   void frame(const Framing& framing);
-  // Goes back and down so that what fills the picture at the pivot's distance fills the part above its lowest
-  // covered_bottom_px pixels, in camera's pixels, with the pivot in the middle of that part.
-  void keep_clear(const Camera& camera, float covered_bottom_px);
-  // The pose in which the points, one or more, fill four fifths of the part of the picture above its lowest
-  // covered_bottom_px pixels, in camera's pixels, with their silhouette in the middle of that part. Of
-  // the points two in a thousand on each side do not count. least_distance: distance of the pose from
-  // their middle, scene units, at least.
-  Framing framing(std::span<const glm::vec3> points_world, const Camera& camera, float covered_bottom_px,
+  // The pose in which the points, one or more, fill four fifths of the picture, with their silhouette in its
+  // middle. Of the points two in a thousand on each side do not count. least_distance: distance of the pose
+  // from their middle, scene units, at least.
+  Framing framing(std::span<const glm::vec3> points_world, const Camera& camera,
                   const glm::quat& camera_from_world, float least_distance = 0) const;
   // Directions up to 45 degrees from the present one, upright, the nearest first: rotations of the camera.
   std::vector<glm::quat> directions_around() const;

@@ -67,7 +67,7 @@ bool add_doubt_of_sides(CutRun* run) {
                                     "four sides are", "five sides are", "six sides are"};
   const std::string sides =
       doubtful <= std::size(kSides) ? kSides[doubtful - 1] : fmt::format("{} sides are", doubtful);
-  run->doubts.push_back(fmt::format("{} in doubt, marked in the pictures below", sides));
+  run->doubts.push_back(fmt::format("{} in doubt, marked in the thumbnails", sides));
   return true;
 }
 

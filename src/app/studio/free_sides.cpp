@@ -20,8 +20,7 @@ void FreeSides::frame_placed() {
   const std::vector<std::uint8_t> own = gaussians_of(*ws_.scene, viewport_.placed_file());
   const std::vector<glm::vec3> points = shown_points(*ws_.scene->cloud, own);
   if (points.empty()) return;
-  camera.frame(camera.framing(points, viewport_.pane_camera(), viewport_.kept_bottom_px(),
-                              camera.pose().camera_from_world));
+  camera.frame(camera.framing(points, viewport_.pane_camera(), camera.pose().camera_from_world));
 }
 
 void FreeSides::frame() {
@@ -36,9 +35,7 @@ void FreeSides::frame() {
   const std::vector<glm::vec3> points = viewport_.object_points();
   if (!object || points.empty()) return;
   const Camera pane = viewport_.pane_camera();
-  const auto framed = [&](const glm::quat& rotation) {
-    return camera.framing(points, pane, viewport_.kept_bottom_px(), rotation);
-  };
+  const auto framed = [&](const glm::quat& rotation) { return camera.framing(points, pane, rotation); };
   std::vector<Framing> sides = {framed(camera.pose().camera_from_world)};
   for (const glm::quat& rotation : camera.directions_around()) sides.push_back(framed(rotation));
   const CameraPose from = camera.pose();

@@ -192,9 +192,8 @@ std::optional<CleanReport> Studio::clean_edges(ObjectId id) const {
   return clean ? std::optional(clean->report) : std::nullopt;
 }
 
-void Studio::set_viewport(int width_px, int height_px, float pixels_per_point, float covered_bottom_px,
-                          float kept_bottom_px) {
-  viewport_.set_size(width_px, height_px, pixels_per_point, covered_bottom_px, kept_bottom_px);
+void Studio::set_viewport(int width_px, int height_px, float pixels_per_point) {
+  viewport_.set_size(width_px, height_px, pixels_per_point);
   if (cursor_px_) cursor_px_ = within_picture(*cursor_px_);
 }
 
@@ -282,13 +281,11 @@ void Studio::perform(const LookAlong& c) {
   const std::vector<glm::vec3> points = viewport_.object_points();
   const Box box = robust_bounds(points);
   const glm::vec3 aside = glm::abs(camera().turned_around() - box.centre()) - 0.5f * box.extent();
-  const float covered_px = viewport_.covered_bottom_px();
-  if (points.empty() || !(covered_px > 0) || std::max({aside.x, aside.y, aside.z}) > 0)
+  if (points.empty() || std::max({aside.x, aside.y, aside.z}) > 0)
     return camera().look_along(c.direction_world);
-  // The view turns about the object: all of it stays above the thumbnails, as near as it is where it can.
+  // The view turns about the object: all of it stays in the picture, as near as it is where it can.
   const glm::vec3 eye = camera().pose().position_world;
-  camera().frame(camera().framing(points, viewport_.pane_camera(), covered_px,
-                                  camera().rotation_along(c.direction_world),
+  camera().frame(camera().framing(points, viewport_.pane_camera(), camera().rotation_along(c.direction_world),
                                   glm::distance(eye, box.centre())));
 }
 

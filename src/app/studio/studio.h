@@ -37,10 +37,7 @@ class Studio {
   void apply(const Command& command);
   void run(Action action);
   std::string why_not(Action action) const;  // reason why the action is refused now; empty: it is allowed
-  // covered_bottom_px: height that thumbnails cover at the bottom of the viewport. kept_bottom_px: height
-  // that they cover or would; framing keeps clear of it.
-  void set_viewport(int width_px, int height_px, float pixels_per_point, float covered_bottom_px = 0,
-                    float kept_bottom_px = 0);
+  void set_viewport(int width_px, int height_px, float pixels_per_point);
   void pointer_pressed(const glm::vec2& pixel, PointerButton button, const Modifiers& modifiers);
   void pointer_moved(const glm::vec2& pixel, const Modifiers& modifiers);
   void pointer_released(const glm::vec2& pixel, PointerButton button, const Modifiers& modifiers);

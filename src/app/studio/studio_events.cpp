@@ -134,11 +134,7 @@ void Studio::pointer_double_clicked(const glm::vec2& pixel) {
 }
 
 glm::vec2 Studio::within_picture(const glm::vec2& pixel) const {
-  constexpr float kMarginPoints = 16;  // the thumbnails hide no part of the ring
-  float covered_px = viewport_.covered_bottom_px();
-  if (covered_px > 0) covered_px += kMarginPoints * viewport_.pixels_per_point();
-  const glm::vec2 size = viewport_.size_px() - glm::vec2(1, 1 + covered_px);
-  return glm::clamp(pixel, glm::vec2(0), glm::max(size, glm::vec2(0)));
+  return glm::clamp(pixel, glm::vec2(0), glm::max(viewport_.size_px() - glm::vec2(1), glm::vec2(0)));
 }
 
 // The cursor appears at the mouse, or in the middle of the picture.

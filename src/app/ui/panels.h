@@ -14,6 +14,10 @@ void objects_panel(UiContext& ui);
 void cutout_panel(UiContext& ui);
 bool has_cut_notes(const Studio& studio);
 void cut_notes(UiContext& ui);  // what runs for the active object, or is in doubt of it
+// The sides of the active object: as high as they are in that room, 0: there are none; room.y: they are no
+// higher. They scroll where they have too little room.
+float view_cards_height(const Studio& studio, const ImVec2& room);
+void view_cards(UiContext& ui, const ImVec2& room);
 void repair_panel(UiContext& ui);
 void scene_panel(UiContext& ui);
 void files_panel(UiContext& ui);  // what the scene is made of

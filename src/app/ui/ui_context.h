@@ -135,8 +135,10 @@ struct UiState {
   bool depth_below = false;                       // the limit of depth alone has none
   bool row_below() const { return options_below || depth_below; }
   float options_height = kOptionsHeight;  // of their rows under it, as they were last
-  bool double_clicked = false;            // the last press was the second of two, by the events' own times
-  bool steady = false;                    // for pictures that must repeat: no times, no version, no blinking
+  double message_s = -1;                  // time of the message whose place was chosen
+  bool message_at_right = false;
+  bool double_clicked = false;  // the last press was the second of two, by the events' own times
+  bool steady = false;          // for pictures that must repeat: no times, no version, no blinking
   std::vector<std::filesystem::path> recent;
   std::filesystem::path sample;  // offered on the start page where it exists
   FileBrowser files;

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "app/ui/panels.h"
 #include "app/ui/widgets.h"
+#include "app/viewport/on_screen.h"
 #include "app/viewport/viewport_pane.h"
 
 namespace splatcut {
@@ -23,26 +25,57 @@ void floating_box(const UiContext& ui, const ImVec2& from, const ImVec2& to) {
   list.AddRect(from, to, packed(ui.theme.colour.line), 7);
 }
 
-UiRect banner(const UiContext& ui, const ImVec2& at, const char* symbol, const ImVec4& colour,
-              const std::string& text, float wrap) {
-  ImDrawList& list = *ImGui::GetWindowDrawList();
+glm::vec2 banner_size(const std::string& text, float wrap) {
   const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap);
-  const ImVec2 end = {at.x + size.x + 46, at.y + size.y + 16};
-  floating_box(ui, at, end);
-  list.AddText({at.x + 12, at.y + 8}, packed(colour), symbol);
-  list.AddText(nullptr, 0, {at.x + 34, at.y + 8}, packed(ui.theme.colour.text), text.c_str(), nullptr, wrap);
-  return {{at.x, at.y}, {end.x, end.y}};
+  return {size.x + 46, size.y + 16};
 }
 
-void draw_message(const UiContext& ui, const UiRect& area, float bottom) {
+void banner(const UiContext& ui, const ImVec2& at, const char* symbol, const ImVec4& colour,
+            const std::string& text, float wrap) {
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const glm::vec2 size = banner_size(text, wrap);
+  floating_box(ui, at, {at.x + size.x, at.y + size.y});
+  list.AddText({at.x + 12, at.y + 8}, packed(colour), symbol);
+  list.AddText(nullptr, 0, {at.x + 34, at.y + 8}, packed(ui.theme.colour.text), text.c_str(), nullptr, wrap);
+}
+
+// How many of the active object's Gaussians, or of a sample of them, lie there on the screen.
+std::size_t covers(const UiContext& ui, const UiRect& picture, const UiRect& rect) {
+  const Studio& studio = ui.studio;
+  if (!studio.scene()) return 0;
+  const std::vector<std::uint8_t> object = studio.labels(studio.document().active);
+  constexpr std::size_t kMost = 4000;
+  const std::size_t step = 1 + studio.gaussians_of(studio.document().active) / kMost;
+  const GaussianCloud& cloud = *studio.scene()->cloud;
+  const Camera camera = studio.viewport().pane_camera();
+  const OnScreen place = on_screen(ui, picture);
+  std::size_t inside = 0;
+  for (std::size_t g = 0, counted = 0; g < object.size(); ++g) {
+    if (!object[g] || counted++ % step != 0) continue;
+    const glm::vec3 seen = camera.camera_from_world(cloud.position[g]);
+    if (!(seen.z > studio.viewport().draw_limits().near_plane)) continue;
+    const ImVec2 at = place(camera.pixel_from_camera(seen));
+    inside += rect.contains({at.x, at.y});
+  }
+  return inside;
+}
+
+// In the lower corner that covers less of the object as the message comes; there it stays.
+void draw_message(const UiContext& ui, const UiRect& area) {
   if (ui.studio.messages().empty()) return;
   const Message& message = ui.studio.messages().back();
   if (ui.studio.clock_s() - message.time_s > kMessageSeconds) return;
   const Palette& p = ui.theme.colour;
   const bool warns = message.kind == Message::Kind::kRefused, fails = message.kind == Message::Kind::kError;
+  constexpr float kMargin = 14;
   const float wrap = std::min(760.0f, area.size().x - 90);
-  const float height = ImGui::CalcTextSize(message.text.c_str(), nullptr, false, wrap).y + 16;
-  banner(ui, {area.min.x + 14, area.max.y - bottom - height - 14},
+  const glm::vec2 size = banner_size(message.text, wrap);
+  const glm::vec2 left(area.min.x + kMargin, area.max.y - size.y - kMargin),
+      right(std::max(left.x, area.max.x - size.x - kMargin), left.y);
+  if (std::exchange(ui.state.message_s, message.time_s) != message.time_s)
+    ui.state.message_at_right =
+        covers(ui, area, {right, right + size}) < covers(ui, area, {left, left + size});
+  banner(ui, vec(ui.state.message_at_right ? right : left),
          warns || fails                         ? icon::kWarning
          : message.kind == Message::Kind::kDone ? icon::kCheck
                                                 : icon::kInfo,
@@ -203,7 +236,7 @@ float covered_top(const UiContext& ui) {
 
 // At the picture's lower edge, where a scene has its floor and no object; a small window has more room at the
 // upper one.
-std::optional<UiRect> first_run_hint(UiContext& ui, const UiRect& area, float bottom) {
+std::optional<UiRect> first_run_hint(UiContext& ui, const UiRect& area) {
   if (!ui.state.hint_wanted || !ui.studio.document().objects.empty()) return {};
   constexpr std::array<std::pair<const char*, const char*>, 4> kLines = {
       {{"Click", "an object: it is cut out"},
@@ -216,7 +249,7 @@ std::optional<UiRect> first_run_hint(UiContext& ui, const UiRect& area, float bo
   const ImVec2 size = {wide ? 600.0f : std::min(376.0f, area.size().x - 2 * kMargin),
                        kRow * static_cast<float>(rows) + 20};
   const ImVec2 at = {area.min.x + kMargin,
-                     wide ? area.max.y - bottom - size.y - kMargin : area.min.y + kMargin + covered_top(ui)};
+                     wide ? area.max.y - size.y - kMargin : area.min.y + kMargin + covered_top(ui)};
   ImDrawList& list = *ImGui::GetWindowDrawList();
   list.AddRectFilled(at, {at.x + size.x, at.y + size.y}, packed(ui.theme.colour.panel, 0.94f), 9);
   list.AddRect(at, {at.x + size.x, at.y + size.y}, packed(ui.theme.colour.accent, 0.7f), 9, 0, 1.5f);
@@ -238,15 +271,14 @@ std::optional<UiRect> first_run_hint(UiContext& ui, const UiRect& area, float bo
 
 }  // namespace
 
-std::vector<UiRect> viewport_pane(UiContext& ui, const UiRect& area, float bottom,
-                                  ImTextureID gpu_picture[2]) {
+std::vector<UiRect> viewport_pane(UiContext& ui, const UiRect& area, ImTextureID gpu_picture[2]) {
   std::vector<UiRect> covered;
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const Studio& studio = ui.studio;
   list.AddRectFilled(vec(area.min), vec(area.max), packed(ui.theme.colour.panel_low));
   if (!studio.scene()) {
     start_page(ui, area);
-    draw_message(ui, area, bottom);
+    draw_message(ui, area);
     return covered;
   }
   const int panes = studio.viewport().panes();
@@ -279,8 +311,8 @@ std::vector<UiRect> viewport_pane(UiContext& ui, const UiRect& area, float botto
   const float offers_end = area.min.x + pane_width - 12;
   const auto offer = offer_bar(ui, offers_at, offers_end);
   const UiRect bar = offer ? offer->rect : UiRect{};
-  draw_offer(ui, area, bottom, bar);
-  draw_sizes(ui, area, bottom, bar);
+  draw_offer(ui, area, bar);
+  draw_sizes(ui, area, bar);
   draw_strokes(ui, area);
   ImGui::PopClipRect();
   ImGui::PushClipRect(vec(area.min), vec(area.max), true);
@@ -309,12 +341,12 @@ std::vector<UiRect> viewport_pane(UiContext& ui, const UiRect& area, float botto
     if (line && line->max.x > area.max.x - kAxesWidth) above_axes = line->max.y;
   }
   covered.push_back(axes_gizmo(ui, {{area.min.x, above_axes}, area.max}));
-  if (const auto rect = first_run_hint(ui, area, bottom)) {
+  UiRect for_message = area;
+  if (const auto rect = first_run_hint(ui, area)) {
     covered.push_back(*rect);
-    if (rect->max.y > 0.5f * (area.min.y + area.max.y))
-      bottom = area.max.y - rect->min.y;  // messages come above it
+    if (rect->max.y > 0.5f * (area.min.y + area.max.y)) for_message.max.y = rect->min.y;
   }
-  draw_message(ui, area, bottom);
+  draw_message(ui, for_message);
   if (studio.cursor_px()) {  // no message hides what keys move
     draw_cursor_sign(ui, area);
     draw_key_cursor(ui, area);

@@ -1,23 +1,18 @@
-// The picture of the scene and all that is drawn over it, pressed on it and shown beside it as thumbnails.
+// The picture of the scene and all that is drawn over it and pressed on it.
 #pragma once
 
 #include "app/ui/ui_context.h"
 
 namespace splatcut {
 
-// Pictures, strokes, tool shapes, messages; these stay above the lowest `bottom` points. Returns what covers
-// the picture and takes clicks itself.
-std::vector<UiRect> viewport_pane(UiContext& ui, const UiRect& area, float bottom,
-                                  ImTextureID gpu_picture[2]);
-void view_strip(UiContext& ui);
-float view_strip_width(const Studio& studio);   // of all its cards, points; 0: none
-float view_strip_height(const Studio& studio);  // as it is, or would be
+// Pictures, strokes, tool shapes, messages. Returns what covers the picture and takes clicks itself.
+std::vector<UiRect> viewport_pane(UiContext& ui, const UiRect& area, ImTextureID gpu_picture[2]);
 
 // Over the picture, whose pixels are pixels_per_point to a point.
 void draw_strokes(const UiContext& ui, const UiRect& area);
 // Other meanings of a click, with their keys. bar: that with their buttons, which covers no key.
-void draw_offer(const UiContext& ui, const UiRect& area, float bottom, const UiRect& bar);
-void draw_sizes(const UiContext& ui, const UiRect& area, float bottom, const UiRect& bar);  // the next ones
+void draw_offer(const UiContext& ui, const UiRect& area, const UiRect& bar);
+void draw_sizes(const UiContext& ui, const UiRect& area, const UiRect& bar);  // the next ones
 void draw_tool_shape(const UiContext& ui, const UiRect& area);
 void draw_brush_ring(const UiContext& ui, const UiRect& area);
 void draw_points(const UiContext& ui, const UiRect& area);  // of the ground, of what is measured

@@ -169,10 +169,9 @@ void draw_strokes(const UiContext& ui, const UiRect& area) {
 }
 
 // What else the click can mean, as thin outlines with their keys, where the camera stands as it was clicked.
-void draw_offer(const UiContext& ui, const UiRect& area, float bottom, const UiRect& bar) {
+void draw_offer(const UiContext& ui, const UiRect& area, const UiRect& bar) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const OnScreen place = on_screen(ui, area);
-  const UiRect free_area{area.min, {area.max.x, area.max.y - bottom}};
   const ClickMeanings* offer = ui.studio.clicks().offer();
   const Camera now = ui.studio.viewport().pane_camera();
   if (!offer || !same_pose(offer->camera, now) || ui.studio.clicks().sizes()) return;
@@ -191,7 +190,7 @@ void draw_offer(const UiContext& ui, const UiRect& area, float bottom, const UiR
                        3);
       list.AddPolyline(path.data(), static_cast<int>(path.size()), IM_COL32(255, 255, 255, 200),
                        ImDrawFlags_Closed, 1.3f);
-      if (!label) label = label_place(path, apart, free_area, bar);
+      if (!label) label = label_place(path, apart, area, bar);
     }
     if (!label) continue;
     apart.push_back(*label);
@@ -201,7 +200,7 @@ void draw_offer(const UiContext& ui, const UiRect& area, float bottom, const UiR
 
 // The size that the pointer is at in the panel. Else the one that is computed, and the next larger and
 // smaller one, dashed, with what the wheel says to them: + upwards.
-void draw_sizes(const UiContext& ui, const UiRect& area, float bottom, const UiRect& bar) {
+void draw_sizes(const UiContext& ui, const UiRect& area, const UiRect& bar) {
   const Clicks& clicks = ui.studio.clicks();
   const std::optional<std::size_t> pointed = ui.state.size_pointed;
   const StrokeSizes* sizes = pointed ? clicks.known_sizes() : clicks.sizes();
@@ -210,7 +209,6 @@ void draw_sizes(const UiContext& ui, const UiRect& area, float bottom, const UiR
   if (pointed && *pointed >= sizes->count()) return;  // the panel was drawn for another object
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const OnScreen there = placement_of(sizes->camera, now, on_screen(ui, area));
-  const UiRect free_area{area.min, {area.max.x, area.max.y - bottom}};
   const float opacity = pointed ? 1 : clicks.sizes_opacity();
   std::vector<ImVec2> apart;
   for (const StrokedView& view : ui.studio.document().active_object()->views)
@@ -224,7 +222,7 @@ void draw_sizes(const UiContext& ui, const UiRect& area, float bottom, const UiR
       if (sign) {
         dashed(list, path, dark, 3);
         dashed(list, path, light, 1.3f);
-        if (!label) label = label_place(path, apart, free_area, bar);
+        if (!label) label = label_place(path, apart, area, bar);
         continue;
       }
       list.AddPolyline(path.data(), static_cast<int>(path.size()), dark, ImDrawFlags_Closed, 4);

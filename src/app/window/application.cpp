@@ -266,8 +266,7 @@ bool Application::advance(double seconds, bool draws) {
   interface_.make_current();
   const glm::vec2 view_px = interface_.viewport().size() * pixels_per_point_;
   studio_.set_viewport(static_cast<int>(std::lround(view_px.x)), static_cast<int>(std::lround(view_px.y)),
-                       pixels_per_point_, interface_.covered_bottom(studio_) * pixels_per_point_,
-                       interface_.kept_bottom(studio_) * pixels_per_point_);
+                       pixels_per_point_);
   const bool busy = studio_.update(seconds);
   remember_recent();
   if (!studio_.document().objects.empty()) interface_.state().hint_wanted = false;

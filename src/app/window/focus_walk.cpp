@@ -11,7 +11,7 @@ namespace splatcut {
 namespace {
 
 // Panels in the order in which Tab goes through them.
-constexpr const char* kPanels[] = {"bar", "options", "tools", "picture", "strip", "side", "status"};
+constexpr const char* kPanels[] = {"bar", "options", "tools", "picture", "side", "status"};
 
 // Windows with items: the root, then its children.
 void add_windows(const ImGuiWindow* root, std::vector<ImGuiWindow*>* windows) {

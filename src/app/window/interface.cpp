@@ -47,6 +47,9 @@ void fixed_panel(const char* name, const UiRect& rect, const Palette& palette, I
   ImGui::End();
 }
 
+constexpr ImGuiHoveredFlags kAlsoDragged =
+    ImGuiHoveredFlags_AllowWhenBlockedByActiveItem | ImGuiHoveredFlags_AllowWhenBlockedByPopup;
+
 // Rows of a panel that come and go by themselves. With `held`, and while the pointer is at the rows below
 // them, they keep their height, so that no button moves as one aims at it; what has no room comes once the
 // pointer has left. below_end: where those rows ended in the last frame; under them there is nothing to aim
@@ -54,8 +57,6 @@ void fixed_panel(const char* name, const UiRect& rect, const Palette& palette, I
 template <class Content>
 void steady_rows(float* height, bool held, float below_end, const Content& content) {
   const ImVec2 from = ImGui::GetCursorScreenPos();
-  constexpr ImGuiHoveredFlags kAlsoDragged =
-      ImGuiHoveredFlags_AllowWhenBlockedByActiveItem | ImGuiHoveredFlags_AllowWhenBlockedByPopup;
   const float pointer = ImGui::GetIO().MousePos.y;
   const bool keeps = held && *height > 0 && ImGui::IsWindowHovered(kAlsoDragged) &&
                      pointer >= from.y + *height && pointer < below_end;
@@ -68,11 +69,23 @@ void steady_rows(float* height, bool held, float below_end, const Content& conte
   ImGui::SetCursorScreenPos({from.x, from.y + *height});
 }
 
-// What comes and goes by itself stands at the panel's lower end, where it moves no row.
-// height: in the last frame, points.
-void notes_below(UiContext& ui, float* height) {
-  ImGui::Separator();
-  ImGui::BeginChild("notes");
+// What comes and goes by itself stands at the panel's lower end, where it moves no row: notes, and under them
+// thumbnails, each as high as it is, up to a share of the panel; more of them scroll.
+float notes_room(float height, float cards) {
+  constexpr float kMost = 0.35f, kMostWithCards = 0.55f;
+  const float room = ImGui::GetContentRegionAvail().y;
+  return std::min({height, kMost * room, kMostWithCards * room - cards});
+}
+
+ImVec2 cards_room() {
+  constexpr float kMost = 0.35f;
+  const ImVec2 room = ImGui::GetContentRegionAvail();
+  return {room.x, std::floor(kMost * room.y)};
+}
+
+// height: of all of them, points.
+void notes_below(UiContext& ui, float room, float* height) {
+  ImGui::BeginChild("notes", {0, room});
   cut_notes(ui);
   *height = ImGui::GetCursorPosY();
   ImGui::EndChild();
@@ -135,14 +148,6 @@ bool Interface::dialog_open() const {
   return ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
 }
 
-float Interface::covered_bottom(const Studio& studio) const {
-  return view_strip_width(studio) > 0 ? kept_bottom(studio) : 0;
-}
-
-float Interface::kept_bottom(const Studio& studio) const {
-  return view_strip_height(studio);
-}
-
 bool Interface::picture_at(const glm::vec2& point, const Studio& studio) const {
   if (!studio.scene() || dialog_open() || !viewport().contains(point)) return false;
   return std::ranges::none_of(covered_, [&](const UiRect& r) { return r.contains(point); });
@@ -167,9 +172,8 @@ void Interface::build(const Studio& studio, double seconds, UiRenderer* renderer
   const glm::vec2 size = size_points_;
   const UiRect view = viewport();
   state_.items = {{"picture", view.min, view.max}};
-  const float cards = view_strip_width(studio);
   fixed_panel("picture", view, p, kFixed | ImGuiWindowFlags_NoScrollWithMouse, {0, 0},
-              [&] { covered_ = viewport_pane(ui, view, covered_bottom(studio), gpu_picture); });
+              [&] { covered_ = viewport_pane(ui, view, gpu_picture); });
   fixed_panel("bar", {{0, 0}, {size.x, kTopHeight}}, p, kFixed | ImGuiWindowFlags_NoScrollWithMouse, {9, 9},
               [&] { top_bar(ui); });
   if (state_.row_below()) {  // over the picture, under the bar
@@ -186,36 +190,7 @@ void Interface::build(const Studio& studio, double seconds, UiRenderer* renderer
   fixed_panel("tools", {{0, kTopHeight}, {kToolsWidth, size.y - kStatus}}, p, kFixed, {8, 8},
               [&] { tool_column(ui); });
   fixed_panel("side", {{size.x - side_width(size), kTopHeight}, {size.x, size.y - kStatus}}, p, kFixed,
-              {12, 8}, [&] {
-                const bool notes = has_cut_notes(studio);
-                begin_side_rows(notes ? notes_height_ : 0);
-                pointer_aims_ = pointer_aims(pointer_aims_);
-                steady_rows(&objects_height_, pointer_aims_, side_end_, [&] { objects_panel(ui); });
-                steady_rows(&cutout_height_, pointer_aims_, side_end_, [&] { cutout_panel(ui); });
-                repair_panel(ui);
-                scene_panel(ui);
-                files_panel(ui);
-                history_panel(ui);
-                side_end_ = ImGui::GetCursorScreenPos().y;
-                side_scrolls_ = ImGui::GetScrollMaxY() > 0;
-                ImGui::EndChild();
-                ImGui::PopClipRect();
-                if (notes) notes_below(ui, &notes_height_);
-              });
-  if (cards > 0) {  // no wider than it must be: it lies on the picture
-    constexpr glm::vec2 kStripPadding(8, 7);
-    const float right = std::min(view.max.x, view.min.x + std::ceil(cards) + 2 * kStripPadding.x);
-    const UiRect strip = {{view.min.x, view.max.y - kept_bottom(studio)}, {right, view.max.y}};
-    covered_.push_back(strip);
-    Palette clear = p;
-    clear.panel.w = 0.9f;
-    fixed_panel("strip", strip, clear, kOverPicture, {kStripPadding.x, kStripPadding.y}, [&] {
-      ImGui::BeginChild("cards", {0, 0}, false, ImGuiWindowFlags_HorizontalScrollbar);
-      view_strip(ui);
-      if (ImGui::IsWindowHovered()) ImGui::SetScrollX(ImGui::GetScrollX() - 60 * io.MouseWheel);
-      ImGui::EndChild();
-    });
-  }
+              {12, 8}, [&] { side_panel(ui); });
   fixed_panel("status", {{0, size.y - kStatus}, {size.x, size.y}}, p,
               kFixed | ImGuiWindowFlags_NoScrollWithMouse, {12, 3}, [&] { status_bar(ui); });
   if (!dialog_open()) {
@@ -239,16 +214,43 @@ void Interface::build(const Studio& studio, double seconds, UiRenderer* renderer
   ImGui::Render();
 }
 
+void Interface::side_panel(UiContext& ui) {
+  const ImVec2 for_cards = cards_room();
+  pointer_aims_ = pointer_aims(pointer_aims_);
+  // No thumbnail comes, goes or moves as one aims at it or at a row.
+  if (!pointer_aims_ || !ImGui::IsWindowHovered(kAlsoDragged | ImGuiHoveredFlags_ChildWindows))
+    cards_height_ = view_cards_height(ui.studio, for_cards);
+  const float notes = has_cut_notes(ui.studio) ? notes_room(notes_height_, cards_height_) : 0;
+  const float between = notes > 0 && cards_height_ > 0 ? ImGui::GetStyle().ItemSpacing.y : 0;
+  const float below = notes + between + cards_height_;
+  begin_side_rows(below);
+  steady_rows(&objects_height_, pointer_aims_, side_end_, [&] { objects_panel(ui); });
+  steady_rows(&cutout_height_, pointer_aims_, side_end_, [&] { cutout_panel(ui); });
+  repair_panel(ui);
+  scene_panel(ui);
+  files_panel(ui);
+  history_panel(ui);
+  side_end_ = ImGui::GetCursorScreenPos().y;
+  side_scrolls_ = ImGui::GetScrollMaxY() > 0;
+  ImGui::EndChild();
+  ImGui::PopClipRect();
+  if (below > 0) ImGui::Separator();
+  if (notes > 0) notes_below(ui, notes, &notes_height_);
+  if (cards_height_ <= 0) return;
+  ImGui::BeginChild("cards", {0, cards_height_});
+  view_cards(ui, for_cards);
+  ImGui::EndChild();
+}
+
 // Their width is the same with a bar to scroll by and without: it lies in the panel's margin.
-void Interface::begin_side_rows(float notes_height) const {
-  constexpr float kMostNotes = 0.35f;  // of the panel; more of them scroll
+void Interface::begin_side_rows(float below) const {
   const ImVec2 panel = ImGui::GetWindowPos(), size = ImGui::GetWindowSize(),
                room = ImGui::GetContentRegionAvail();
-  const float notes = std::min(notes_height, kMostNotes * room.y) + 2 * ImGui::GetStyle().ItemSpacing.y;
+  const float with_line = below + 2 * ImGui::GetStyle().ItemSpacing.y;
   ImGui::PushClipRect(panel, {panel.x + size.x, panel.y + size.y}, false);
   if (!side_scrolls_) ImGui::PushStyleColor(ImGuiCol_ScrollbarGrab, {0, 0, 0, 0});
-  ImGui::BeginChild("scroll", {room.x + ImGui::GetStyle().ScrollbarSize, notes_height > 0 ? -notes : 0},
-                    false, ImGuiWindowFlags_AlwaysVerticalScrollbar);
+  ImGui::BeginChild("scroll", {room.x + ImGui::GetStyle().ScrollbarSize, below > 0 ? -with_line : 0}, false,
+                    ImGuiWindowFlags_AlwaysVerticalScrollbar);
   if (!side_scrolls_) ImGui::PopStyleColor();
 }
 

@@ -29,8 +29,6 @@ class Interface {
   bool handle_at(const glm::vec2& point) const;
   bool dragging_handle() const { return state_.placing.grips.drag.has_value(); }  // Esc is for that
   bool dialog_open() const;
-  float covered_bottom(const Studio& studio) const;  // of the picture, by thumbnails; points
-  float kept_bottom(const Studio& studio) const;     // what they would cover; framing leaves it free
 
   // Builds the frame; its draw data is ImGui's until the next call.
   void build(const Studio& studio, double seconds, UiRenderer* renderer, ImTextureID gpu_picture[2],
@@ -43,14 +41,15 @@ class Interface {
   const Theme& theme() const { return theme_; }
 
  private:
-  void begin_side_rows(float notes_height) const;
+  void side_panel(UiContext& ui);
+  void begin_side_rows(float below) const;
 
   ImGuiContext* context_;
   Theme theme_;
   UiState state_;
   glm::vec2 size_points_{1280, 720};
   float objects_height_ = 0, cutout_height_ = 0;  // of these sections in the side panel, points
-  float notes_height_ = 28;                       // of the notes below them, points
+  float notes_height_ = 28, cards_height_ = 0;    // of the notes and thumbnails below them, points
   float side_end_ = 0;                            // of the side panel's rows in the last frame
   bool side_scrolls_ = false;                     // they have no room
   bool pointer_aims_ = false;                     // it was moved after the last key

@@ -33,10 +33,7 @@ Viewport::Viewport(Workspace& workspace, const CutJobs& cuts)
       style_labels_(std::make_shared<LabelCache>()),
       frames_(workspace.options.wake) {}
 
-void Viewport::set_size(int width_px, int height_px, float pixels_per_point, float covered_bottom_px,
-                        float kept_bottom_px) {
-  covered_bottom_px_ = covered_bottom_px;
-  kept_bottom_px_ = std::max(covered_bottom_px, kept_bottom_px);
+void Viewport::set_size(int width_px, int height_px, float pixels_per_point) {
   width_px_ = std::max(1, width_px);
   height_px_ = std::max(1, height_px);
   pixels_per_point_ = pixels_per_point;
@@ -66,7 +63,6 @@ void Viewport::reset() {
 void Viewport::show_all_of_scene() {
   camera_.frame_scene();
   camera_.finish_transition();
-  camera_.keep_clear(pane_camera(), kept_bottom_px_);
   camera_.keep_opening(ws_.scene->views().up_world);
 }
 
@@ -284,7 +280,6 @@ std::optional<PickedPoint> Viewport::pick(const glm::vec2& pixel) const {
 std::optional<glm::vec3> Viewport::surface_in_middle(std::uint32_t without_file) const {
   if (!ws_.scene) return {};
   const Camera camera = pane_camera();
-  const glm::vec2 free_px(camera.width_px, static_cast<float>(camera.height_px) - covered_bottom_px_);
   Flags visible = shown(pressed_pane());
   if (without_file != 0) {
     std::vector<std::uint8_t> others(ws_.gaussians(), 1);
@@ -293,7 +288,7 @@ std::optional<glm::vec3> Viewport::surface_in_middle(std::uint32_t without_file)
     for (std::size_t g = 0; g < others.size(); ++g) others[g] = others[g] && !own[g];
     visible = make_flags(std::move(others));
   }
-  const auto hit = hit_in(camera, 0.5f * free_px, visible);
+  const auto hit = hit_in(camera, 0.5f * glm::vec2(camera.width_px, camera.height_px), visible);
   return hit ? std::optional(hit->position_world) : std::nullopt;
 }
 

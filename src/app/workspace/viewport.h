@@ -24,13 +24,12 @@ class Viewport {
   Viewport(Workspace& workspace, const CutJobs& cuts);
 
   // See Studio::set_viewport().
-  void set_size(int width_px, int height_px, float pixels_per_point, float covered_bottom_px,
-                float kept_bottom_px);
+  void set_size(int width_px, int height_px, float pixels_per_point);
   // Says whether a GPU draws the splats. If so, pictures are made for picking only, and only when nothing
   // moves.
   void set_gpu_view(bool gpu) { gpu_view_ = gpu; }
   void reset();  // starts with the workspace's new scene
-  // From the present direction, with room for the thumbnails; the opening view of scenes opened together.
+  // From the present direction; the opening view of scenes opened together.
   void show_all_of_scene();
   void change_scene();  // goes on with the workspace's scene, which has other files now; the camera stays
   // Moves the camera, and requests and takes styles and pictures; called once a frame. Returns true while the
@@ -42,8 +41,6 @@ class Viewport {
   CameraController& camera() { return camera_; }
   const CameraController& camera() const { return camera_; }
   glm::vec2 size_px() const { return {width_px_, height_px_}; }
-  float covered_bottom_px() const { return covered_bottom_px_; }
-  float kept_bottom_px() const { return kept_bottom_px_; }
   // Points where the active object's Gaussians show; strays do not count.
   std::vector<glm::vec3> object_points() const;
   Camera pane_camera() const;  // camera of each pane: two panes show the same view
@@ -104,8 +101,8 @@ class Viewport {
   // Picks the surface under a pixel of the pressed pane; none: nothing is there. The last picture answers if
   // it shows this view; else the one pixel is drawn.
   std::optional<PickedPoint> pick(const glm::vec2& pixel) const;
-  // The surface in the middle of the part of the picture that thumbnails leave free, but for Gaussians of the
-  // file (a SceneSource::id, 0: of none); none: nothing is there.
+  // The surface in the middle of the picture, but for Gaussians of the file (a SceneSource::id, 0: of none);
+  // none: nothing is there.
   std::optional<glm::vec3> surface_in_middle(std::uint32_t without_file = 0) const;
   // The same; where nothing is there, the point that the view turns around.
   glm::vec3 looked_at_world() const;
@@ -138,7 +135,7 @@ class Viewport {
   const CutJobs& cuts_;
   CameraController camera_;
   int width_px_ = 0, height_px_ = 0;
-  float covered_bottom_px_ = 0, kept_bottom_px_ = 0, pixels_per_point_ = 1;
+  float pixels_per_point_ = 1;
   bool gpu_view_ = false;
   StrokeMarks stroke_marks_;
   std::vector<StrokeMark> marks_;

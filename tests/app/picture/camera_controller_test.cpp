@@ -36,8 +36,7 @@ TEST_CASE("camera: what is framed lies beyond the near plane, however small it i
     std::vector<glm::vec3> corners;
     for (int i = 0; i < 8; ++i)
       corners.push_back(glm::vec3(3, 4, 5) + size * glm::vec3(i & 1, i >> 1 & 1, i >> 2));
-    camera.frame(
-        camera.framing(corners, camera.camera(400, 300), 0, camera.rotation_along(glm::vec3(0, 1, 0))));
+    camera.frame(camera.framing(corners, camera.camera(400, 300), camera.rotation_along(glm::vec3(0, 1, 0))));
     camera.finish_transition();
     std::vector<float> depth;
     for (const glm::vec3& corner : corners) depth.push_back(depth_of(camera, corner));

@@ -2,6 +2,7 @@
 #include "app/picture/cut_pictures.h"
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -107,21 +108,14 @@ TEST_CASE("thumbnails: sides in doubt are marked, and the message says how many"
   }
   const CutRun* run = hands.studio().cuts().run(hands.studio().document().active);
   CHECK(std::ranges::count_if(run->doubts, [](const std::string& d) {
-          return d.find("in doubt, marked in the pictures below") != d.npos;
+          return d.find("in doubt, marked in the thumbnails") != d.npos;
         }) == 1);
   const auto marked = std::ranges::find_if(run->views, [](const ViewCard& c) { return !c.doubt.empty(); });
   REQUIRE(marked != run->views.end());
   const Camera there = marked->camera;
-  const UiRect strip = hands.app.window("strip");
-  constexpr float kCardHeight = 76, kGap = 6, kPadding = 8;
-  float x = strip.min.x + kPadding;
-  const auto width = [&](const ViewCard& c) {
-    return kCardHeight * static_cast<float>(c.picture->width()) / static_cast<float>(c.picture->height());
-  };
-  for (auto c = run->views.begin(); c != marked; ++c) x += width(*c) + kGap;
-  const glm::vec2 on_card(x + 0.5f * width(*marked), strip.min.y + 40);
-  REQUIRE(on_card.x < strip.max.x);
-  hands.app.click(on_card);
+  const UiRect card = hands.app.button(fmt::format("side {}", std::distance(run->views.begin(), marked)));
+  REQUIRE(card.min.x >= hands.app->interface().viewport().max.x);
+  hands.app.click(0.5f * (card.min + card.max));
   REQUIRE(hands.app.settle());
   const Camera now = hands.studio().viewport().pane_camera();
   CHECK(glm::distance(now.centre_world(), there.centre_world()) < 1e-3f);

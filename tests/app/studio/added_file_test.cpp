@@ -34,8 +34,7 @@ TEST_CASE("several scenes: an added file comes to stand upright on what one look
   const auto a = small_scene(folder, "a.ply", 1), b = small_scene(folder, "b.ply", 2);
   const glm::vec3 seen = studio.viewport().looked_at_world(), beside = seen + glm::vec3(1, 0, 0.5f);
   const Camera camera = studio.viewport().pane_camera();
-  const float free_px = static_cast<float>(camera.height_px) - studio.viewport().covered_bottom_px();
-  const glm::vec2 middle(0.5f * static_cast<float>(camera.width_px), 0.5f * free_px);
+  const glm::vec2 middle = 0.5f * studio.viewport().size_px();
   CHECK(glm::distance(camera.pixel_from_camera(camera.camera_from_world(seen)), middle) < 0.5f);
   const auto stands_on = [&](const SceneSource& file, const glm::vec3& point) {
     const glm::vec3 up = studio.document().up_world;
@@ -57,34 +56,28 @@ TEST_CASE("several scenes: an added file comes to stand upright on what one look
   CHECK(studio.scene()->files[1].place == first.place);
 }
 
-TEST_CASE(
-    "several scenes: a file is brought onto the surface in the middle of the free picture, or not at all") {
+TEST_CASE("several scenes: a file is brought onto the surface in the middle of the picture, or not at all") {
   const ScratchFolder folder("several_here");
   Hands hands(false);
   Studio& studio = hands.studio();
   add(hands, small_scene(folder));
-  hands.app.click(hands.app.screen_of(kOnApple));  // for its thumbnails
-  REQUIRE(hands.app.settle());
   const std::uint32_t id = last_file(hands).id;
-  REQUIRE(studio.viewport().covered_bottom_px() > 0);
   // The view turns and is shifted: its pivot hangs in the air or lies under the table.
   hands.app.drag({{300, 200}, {300, 260}});
   hands.app.drag({{300, 260}, {300, 190}}, PointerButton::kRight);
   REQUIRE(hands.app.settle());
-  const auto below = [&] {  // what is under the middle of the free part, but for the file itself
+  const auto below = [&] {  // what is under the middle, but for the file itself
     const Camera camera = studio.viewport().pane_camera();
     std::vector<std::uint8_t> others = gaussians_of(*studio.scene(), id);
     for (std::uint8_t& g : others) g = !g;
-    const glm::vec2 free(camera.width_px,
-                         static_cast<float>(camera.height_px) - studio.viewport().covered_bottom_px());
-    const auto hit = studio.viewport().hit_in(camera, 0.5f * free, make_flags(others));
+    const auto hit = studio.viewport().hit_in(camera, 0.5f * studio.viewport().size_px(), make_flags(others));
     REQUIRE(hit);
     return hit->position_world;
   };
   REQUIRE(glm::distance(below(), studio.camera().pivot_world()) > 0.01f * studio.camera().scene_size());
   const glm::vec3 up = studio.document().up_world;
   for (int again = 0; again < 2; ++again) {  // it does not climb upon itself
-    const glm::vec3 place = below();         // without thumbnails the second time
+    const glm::vec3 place = below();
     studio.apply(BringHere{id});
     REQUIRE(hands.app.settle());
     CHECK(glm::distance(foot_world(last_file(hands), up), place) < 1e-3f * studio.camera().scene_size());
