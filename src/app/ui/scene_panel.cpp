@@ -39,11 +39,12 @@ void up_buttons(UiContext& ui) {
 void axes_row(UiContext& ui) {
   const Scene* scene = ui.studio.scene() ? ui.studio.scene()->scene.get() : nullptr;
   if (!scene || !scene->taken_axes) return;
+  const SceneSource& file = ui.studio.scene()->files.front();
   wrapped_muted(ui, scene->axes_note);
   const SpzAxes other = *scene->taken_axes == SpzAxes::kRub ? SpzAxes::kPly : SpzAxes::kRub;
   if (button(ui, "Take the other axes",
              "Loads the file again, with y and z the other way round; work begins anew", {}, false, -1))
-    ui.ask(OpenScene{scene->path, other, {}, {}, ui.studio.scene()->files.front().cameras});
+    ui.ask(OpenScene{scene->path, other, {}, {}, file.cameras, file.camera});
 }
 
 void slider_row(const char* label, const char* tip, const std::function<void()>& slider) {

@@ -64,9 +64,14 @@ TEST_CASE(
   REQUIRE(app.settle());
   CHECK(scene().taken_axes == SpzAxes::kPly);
   app.press_item("side/scroll", {"View"});
+  const fs::path cameras = kSampleFolder / "cameras.json";
+  app.studio().apply(OpenScene{.path = path, .spz_axes = SpzAxes::kPly, .cameras = cameras, .camera = "2"});
+  REQUIRE(app.settle());
   app.press_item("side/scroll", {"Take the other axes"});
   REQUIRE(app.settle());
   CHECK(scene().taken_axes == SpzAxes::kRub);
+  CHECK(app.studio().scene()->files.front().cameras == cameras);
+  CHECK(app.studio().scene()->files.front().camera == "2");
   // With work that is not saved it asks first, and then still takes the other axes.
   app.studio().apply(EditSelection{SelectionEdit::kAll});
   REQUIRE(app.settle());
