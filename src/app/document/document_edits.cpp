@@ -44,7 +44,9 @@ const char* first_stroke_word(const ObjectItem& object) {
 void settle_with_others(Document* document, ObjectItem* object, std::span<const std::int32_t> hits,
                         bool first, const EditContext& context) {
   if (first) {
-    if (!hits.empty())  // of a box the one in its middle
+    const ObjectItem* undone = context.undone ? context.undone->find(object->id) : nullptr;
+    if (undone) object->colour = undone->colour;  // it is begun again
+    if (!hits.empty())                            // of a box the one in its middle
       stand_out(document, object->id,
                 base_colour(context.cloud, static_cast<std::size_t>(hits[hits.size() / 2])));
     leave_to_others(*document, object, context.cloud.size());

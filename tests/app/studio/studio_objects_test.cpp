@@ -38,6 +38,22 @@ TEST_CASE("hands: an object's colour is one that shows on what was clicked, and 
   CHECK(hands.studio().document().active_object()->colour != on_orange);
 }
 
+TEST_CASE("hands: an object that is begun again after an undo keeps its colour where that shows") {
+  Hands hands = hands_on_sample(false);
+  const auto begun_on = [&](const glm::vec2& thing) {
+    hands.app.click(hands.app.screen_of(thing));
+    REQUIRE(hands.app.settle());
+    const Rgb8 colour = hands.studio().document().active_object()->colour;
+    hands.app.key('Z', {.ctrl = true});
+    REQUIRE(hands.app.settle());
+    REQUIRE(hands.studio().document().objects.empty());
+    return colour;
+  };
+  const Rgb8 on_mug = begun_on(kOnMug), on_orange = begun_on(kOnOrange);
+  REQUIRE(on_orange != on_mug);  // that would not show there
+  CHECK(begun_on(kOnMug) == on_orange);
+}
+
 TEST_CASE("hands: a new object leaves to the others what they have, unless it is clicked on that") {
   Hands hands;
   Studio& studio = hands.studio();
