@@ -23,9 +23,9 @@ std::string name_of(const json& entry, const std::string& where) {
   throw Error(where, "has no name", "Give \"name\": its files are called after it");
 }
 
-// Names that become the same file, or that of the rest, of all objects together or of what fills holes.
+// Names that become the same file, or that of the rest or of all objects together.
 void check_names(const std::vector<NamedSeeds>& objects, const std::string& where) {
-  std::vector<std::string> taken = {"rest", "objects", "fill"};
+  std::vector<std::string> taken = {"rest", "objects"};
   for (const NamedSeeds& object : objects) {
     const std::string file = file_name_of(object.name) + ".ply";
     if (std::ranges::find(taken, file_name_of(object.name)) != taken.end())

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <chrono>
 
 #include "app/cli/cut_placing.h"
@@ -46,6 +47,11 @@ void refuse_unused(const CutArguments& args, const ObjectInput& input, const Cut
   if (settings.parts_only && masked)
     throw Error("parts_only", "the parts cannot be the answer where masks are given",
                 "Leave one of them out");
+  const auto fill =
+      std::ranges::find(input.objects, "fill", [](const NamedSeeds& o) { return file_name_of(o.name); });
+  if (args.cutout.writes("fill") && fill != input.objects.end())
+    throw Error("--write fill", fmt::format("writes fill.ply, and so does the object \"{}\"", fill->name),
+                "Give it another name");
   if (settings.first_mask_from != FirstMaskFrom::kParts && (args.scale != 0 || args.choice))
     throw Error(args.choice ? "--choice" : "--scale",
                 "chooses among parts, and the first mask comes from pixels",

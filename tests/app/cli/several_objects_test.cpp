@@ -159,6 +159,9 @@ TEST_CASE("seeds may name their camera, of one object or of all") {
   place.write("one.json", one.dump());
   const auto [named, report] = labels("--camera 0 --seeds one.json", "labels.u8");
   CHECK(named == asked);
+  // A name that nothing else takes: fill.ply is written where that is asked for.
+  place.write("of_fill.json", json{{"objects", {{{"name", "fill"}, {"clicks", one_click("mug")}}}}}.dump());
+  CHECK(labels("--camera view_01 --seeds of_fill.json", "fill.labels.u8").first == asked);
   CHECK(report["settings"]["reference"] == "view_01");
   refused(still_life().cut("--seeds one.json --click 9,9"), {}, {"--click", "--seeds names another"});
   refused("cut " + still_life().scene + " " + still_life().cameras +
@@ -211,6 +214,8 @@ TEST_CASE("files of objects that cannot be used are refused") {
   with({{{"name", "a b"}, {"clicks", clicks}}, {{"name", "a/b"}, {"clicks", clicks}}}, {"a_b.ply", "taken"});
   with(json::array({json{{"name", "rest"}, {"clicks", clicks}}}), {"rest.ply", "taken"});
   with(json::array({json{{"name", "objects"}, {"clicks", clicks}}}), {"objects.ply", "taken"});
+  with(json::array({json{{"name", "fill"}, {"clicks", clicks}}}), {"--write fill", "fill.ply", "\"fill\""},
+       " --write rest,fill --fill surface");
   with(json::array({json{{"name", "apple"}, {"camera", "none"}, {"clicks", clicks}}}), {"camera \"none\""});
   with(json::array({json{{"name", "apple"}, {"camera", 1.5}, {"clicks", clicks}}}), {"\"camera\""});
   with(json::array({json{{"name", "apple"}, {"clicks", json::array({json{{"x", 5000}, {"y", 3}}})}}}),
