@@ -43,20 +43,23 @@ bool stand_otherwise(const std::vector<Camera>& cameras, const std::optional<glm
   return up && !cameras.empty() && glm::dot(glm::normalize(common_up(cameras)), *up) < kAlike;
 }
 
+// The one to begin with.
+Camera chosen_of(const SceneSource& file, const std::vector<Camera>& cameras) {
+  if (file.camera.empty()) return cameras.front();
+  if (cameras.empty())
+    throw Error("--camera " + file.camera, "names a camera, but the scene has none",
+                "Give them with --cameras");
+  return find_camera(cameras, file.camera, (file.cameras.empty() ? file.path : file.cameras).string());
+}
+
 // Without cameras the first view is guessed from the splats, and up where the file does not say it.
 FileViews views_of(const SceneSource& file, const Scene& scene, std::vector<Camera> cameras, const Job& job) {
   const Box& bounds = file.bounds;
   FileViews views;
   views.cameras = std::move(cameras);
-  if (!file.camera.empty() && views.cameras.empty())
-    throw Error("--camera " + file.camera, "names a camera, but the scene has none",
-                "Give them with --cameras");
-  if (!views.cameras.empty()) {
+  if (!views.cameras.empty() || !file.camera.empty()) {
+    views.reference = chosen_of(file, views.cameras);
     views.up_world = scene.up ? *scene.up : common_up(views.cameras);
-    views.reference = file.camera.empty()
-                          ? views.cameras.front()
-                          : find_camera(views.cameras, file.camera,
-                                        (file.cameras.empty() ? file.path : file.cameras).string());
     return views;
   }
   views.up_is_guess = !scene.up;
@@ -218,6 +221,9 @@ std::shared_ptr<OpenedScene> open_scene(const std::filesystem::path& file, const
 std::shared_ptr<OpenedScene> open_first(std::vector<SceneSource> files,
                                         std::vector<std::filesystem::path>* added,
                                         std::vector<std::string>* refused, const Job& job) {
+  const SceneSource& first = files.front();
+  if (!first.cameras.empty() || !first.camera.empty())  // a wrong one is no fault of the files
+    chosen_of(first, cameras_of(first, glm::dvec3(0), nullptr));
   while (true) try {
       return open_scene(files, job);
     } catch (const Error& error) {

@@ -300,6 +300,19 @@ TEST_CASE(
   REQUIRE(hands.app.settle());
   CHECK(studio.scene()->files.size() == 1);
   CHECK(hands.said().find("no.ply") != std::string::npos);
+
+  // A wrong camera is no fault of the scenes.
+  const std::filesystem::path own = kSampleFolder / "cameras.json";
+  std::ofstream(folder / "none.json") << "[]";
+  for (const auto& [cameras, camera, words] : {std::tuple(own, "no_such", "no_such"),
+                                               {folder / "none.json", "", "none.json: holds no camera"},
+                                               {std::filesystem::path(), "no_such", "no_such"}}) {
+    CAPTURE(words);
+    studio.apply(OpenScene{.path = kSmallSample, .added = {a}, .cameras = cameras, .camera = camera});
+    REQUIRE(hands.app.settle());
+    CHECK(hands.said().find(words) != std::string::npos);
+    CHECK(hands.said().find("None of the files") == std::string::npos);
+  }
 }
 
 TEST_CASE(
