@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <thread>
+#include <utility>
 
 #include "app/console/kept_inputs.h"
 #include "app/work/work_history.h"
@@ -36,7 +37,26 @@ SavedWork::SavedWork(Workspace& workspace, Viewport& viewport)
 bool SavedWork::unsaved() const {
   const Document& document = ws_.document();
   const bool several = ws_.scene && ws_.scene->files.size() > 1;
-  return (!document.objects.empty() || document.deleted || several) && saved_serial_ != ws_.history.serial();
+  return (!document.objects.empty() || document.deleted || several) && differs();
+}
+
+// What is chosen and what lies behind the scene is no work.
+bool SavedWork::differs() const {
+  const std::uint64_t serial = ws_.history.serial();
+  if (saved_serial_ == serial) return false;
+  if (saved_serial_ == 0 || saved_scene_ != ws_.scene->serial) return true;
+  if (std::exchange(compared_serial_, serial) == serial) return differs_;
+  Document now = ws_.document();
+  now.active = saved_document_.active;
+  now.background = saved_document_.background;
+  return differs_ = !same(now, saved_document_);
+}
+
+void SavedWork::keep_as_saved(std::uint64_t serial, const Document& document, std::uint64_t scene) {
+  saved_serial_ = serial;
+  saved_document_ = document;
+  saved_scene_ = scene;
+  compared_serial_ = 0;
 }
 
 // A file without work, nor any that could be redone, goes. What was restored is not offered again while it
@@ -70,7 +90,8 @@ void SavedWork::opened(const std::optional<RestoredWork>& work, const std::files
   std::error_code failure;
   if (work && !own && is_regular_file(work->saved_as, failure)) work_path_ = work->saved_as;
   if (work && std::ranges::find(offers_, file, &LeftWork::file) != offers_.end()) restored_ = file;
-  autosaved_serial_ = saved_serial_ = ws_.history.serial();
+  autosaved_serial_ = ws_.history.serial();
+  keep_as_saved(autosaved_serial_, ws_.document(), ws_.scene->serial);
   autosaved_pose_ = viewport_.camera().kept_pose();
   if (work && !own) autosaved_serial_ = saved_serial_ = 0;  // restored: nowhere else yet
   written_in_s_ = 0;
@@ -177,11 +198,11 @@ void SavedWork::perform(const SaveWork& c) {
                                      steps = saved_steps(ws_.history)](const Job& job) {
     job.progress("saving", 0);
     write_work_file(path, *scene, document, view, steps);
-    ws_.tasks.post([this, path, serial, scene] {
+    ws_.tasks.post([this, path, serial, scene, document] {
       ws_.say(Message::Kind::kDone, "Work saved to " + path.string());
       if (scene != ws_.scene) return;
       work_path_ = path;
-      saved_serial_ = serial;
+      keep_as_saved(serial, document, scene->serial);
       ++saves_;
     });
   });

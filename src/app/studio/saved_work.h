@@ -43,6 +43,8 @@ class SavedWork {
  private:
   TaskThread::Work autosaving();
   Image<Rgb8> small_picture() const;  // of what the view shows; empty: nothing is drawn yet
+  bool differs() const;               // the document does from the saved one
+  void keep_as_saved(std::uint64_t serial, const Document& document, std::uint64_t scene);
   void look_for_more(double seconds);
   void find_offers();
   void sort_offers();
@@ -59,6 +61,11 @@ class SavedWork {
   double looked_for_s_ = 0;
   // Serials of the documents that the autosave and the user's file hold; 0: the file holds none.
   std::uint64_t autosaved_serial_ = 0, saved_serial_ = 0;
+  Document saved_document_;        // that of saved_serial_, if that is not 0
+  std::uint64_t saved_scene_ = 0;  // OpenedScene::serial of its scene
+  // Serial of the last document that was compared with it, and whether that differs.
+  mutable std::uint64_t compared_serial_ = 0;
+  mutable bool differs_ = false;
   std::uint64_t waiting_serial_ = 0;  // serial of the document that waits to be autosaved
   // Since the last change; since the first one that the autosave lacks; since the last writing ended.
   double quiet_s_ = 0, unkept_s_ = 0, rested_s_ = 0;

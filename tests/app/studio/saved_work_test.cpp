@@ -13,6 +13,27 @@
 using namespace splatcut;
 using namespace splatcut::testing;
 
+TEST_CASE("saved work: another chosen object or background is no unsaved work") {
+  const ScratchFolder folder("chosen");
+  HeadlessApp app(kSmallWidth, kSmallHeight);
+  opened(app);
+  Studio& studio = app.studio();
+  studio.apply(EditSelection{SelectionEdit::kAll});
+  REQUIRE(app.settle());
+  studio.apply(NewObject{});
+  studio.apply(SaveWork{folder / "two.splatcut.json"});
+  REQUIRE(app.settle());
+  REQUIRE_FALSE(studio.unsaved());
+  studio.apply(ActivateObject{studio.document().objects.front().id});
+  CHECK_FALSE(studio.unsaved());
+  studio.apply(SetBackground{{1, 1, 1}});
+  CHECK_FALSE(studio.unsaved());
+  studio.apply(RenameObject{studio.document().active, "mug"});
+  CHECK(studio.unsaved());
+  studio.apply(Undo{});
+  CHECK_FALSE(studio.unsaved());
+}
+
 TEST_CASE("saved work: read back the same, and computed again bit for bit") {
   const ScratchFolder folder("work");
   HeadlessApp app(kSmallWidth, kSmallHeight, 1, {});  // prepared anew
