@@ -382,13 +382,19 @@ void Clicks::reset() {
   declined_offer_.clear();
 }
 
+// Before they are known, their keys are no tools either: else it would depend on the moment what a key does.
 bool Clicks::chooses_by(int key) const {
-  return offer() && key >= '1' && key < '1' + kMostMeanings;
+  if (key < '1' || key >= '1' + kMostMeanings) return false;
+  if (offer()) return true;
+  const ObjectItem* object = ws_.document().active_object();
+  return key > '1' && ws_.view.display == DisplayMode::kWhole && !why_no_meanings().empty() &&
+         cuts_.comes(*object);
 }
 
 std::string Clicks::why_not_choose(int key) const {
   const ClickMeanings* offered = offer();
-  if (!offered || !chooses_by(key) || key - '1' < std::ssize(offered->outlines)) return {};
+  if (!offered) return why_no_meanings();
+  if (!chooses_by(key) || key - '1' < std::ssize(offered->outlines)) return {};
   return "Two meanings are offered: keys 1 and 2. After Esc, 3 is a tool again";
 }
 

@@ -193,6 +193,34 @@ TEST_CASE(
   CHECK_FALSE(studio.clicks().offer());
 }
 
+TEST_CASE("hands: right after a box, 2 and 3 are no tools: what else it can mean is still computed") {
+  Hands hands = hands_on_sample(false);
+  Studio& studio = hands.studio();
+  hands.app.key('4');
+  const glm::vec2 at = hands.app.screen_of(kOnApple);
+  hands.app.drag({at - 60.0f, at, at + 60.0f});
+  REQUIRE(studio.cutting());
+  for (const int key : {'2', '3'}) {
+    hands.app.key(key);
+    CHECK(studio.view().tool == ToolId(Tool::kBox));
+    CHECK(hands.said().find("once Object 1 is computed") != std::string::npos);
+  }
+  REQUIRE(hands.app.settle());
+  REQUIRE(studio.clicks().offer());
+  hands.app.key('2');
+  REQUIRE(hands.app.settle());
+  CHECK(studio.document().active_object()->choice == 1);
+
+  hands.app.key('N', {.ctrl = true});
+  hands.app.key('4');
+  hands.app.drag({at - 60.0f, at, at + 60.0f});
+  REQUIRE(studio.cutting());
+  hands.app.key(key::kEscape);  // nothing comes any more
+  REQUIRE(hands.app.settle());
+  hands.app.key('3');
+  CHECK(studio.view().tool == ToolId(Tool::kScribble));
+}
+
 TEST_CASE("hands: boxes that remove, one right after the other, all remove") {
   Hands hands = hands_on_sample(false);
   Studio& studio = hands.studio();
