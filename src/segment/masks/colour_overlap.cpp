@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 #include "segment/masks/cv_image.h"
 
 namespace splatcut {
 
 namespace {
-
-constexpr std::size_t kBins = 512;
 
 std::size_t colour_bin(const cv::Vec3f& lab) {
   constexpr float kMostChroma = 40;
@@ -22,46 +21,56 @@ std::size_t colour_bin(const cv::Vec3f& lab) {
 }
 
 // Share of each colour in the mask.
-std::array<float, kBins> shares_of(const cv::Mat& lab, const Mask& mask) {
-  std::array<float, kBins> shares{};
+std::array<float, kColourBins> shares_of(std::span<const std::uint16_t> colour, const Mask& mask) {
+  std::array<float, kColourBins> shares{};
   float all = 0;
-  for (int y = 0; y < mask.height(); ++y)
-    for (int x = 0; x < mask.width(); ++x)
-      if (mask.at(x, y)) {
-        shares[colour_bin(lab.at<cv::Vec3f>(y, x))] += 1;
-        all += 1;
-      }
+  for (std::size_t pixel = 0; pixel < mask.size(); ++pixel)
+    if (mask.pixels()[pixel]) {
+      shares[colour[pixel]] += 1;
+      all += 1;
+    }
   for (float& share : shares) share /= std::max(all, 1.0f);
   return shares;
 }
 
 }  // namespace
 
-float overlap_of_colours(const Image<Rgb8>& picture, const Mask& mask, const BoxPx& around) {
+std::vector<std::uint16_t> colour_bins(const Image<Rgb8>& picture) {
   const cv::Mat lab = lab_of(as_const_mat(picture));
-  std::array<std::array<float, kBins>, 2> pixels{};
+  std::vector<std::uint16_t> bins;
+  bins.reserve(picture.size());
+  for (int y = 0; y < lab.rows; ++y)
+    for (int x = 0; x < lab.cols; ++x)
+      bins.push_back(static_cast<std::uint16_t>(colour_bin(lab.at<cv::Vec3f>(y, x))));
+  return bins;
+}
+
+float overlap_of_colours(const Image<Rgb8>& picture, const Mask& mask, const BoxPx& around) {
+  const std::vector<std::uint16_t> colour = colour_bins(picture);
+  std::array<std::array<float, kColourBins>, 2> pixels{};
   std::array<float, 2> all{};
   for (int y = 0; y < mask.height(); ++y)
     for (int x = 0; x < mask.width(); ++x) {
       if (!around.contains(glm::vec2(x, y) + 0.5f)) continue;
       const std::size_t side = mask.at(x, y) != 0;
-      pixels[side][colour_bin(lab.at<cv::Vec3f>(y, x))] += 1;
+      pixels[side][colour[static_cast<std::size_t>(y) * static_cast<std::size_t>(mask.width()) +
+                          static_cast<std::size_t>(x)]] += 1;
       all[side] += 1;
     }
   if (all[0] == 0 || all[1] == 0) return 1;
   float overlap = 0;
-  for (std::size_t bin = 0; bin < kBins; ++bin)
+  for (std::size_t bin = 0; bin < kColourBins; ++bin)
     overlap += std::min(pixels[0][bin] / all[0], pixels[1][bin] / all[1]);
   return overlap;
 }
 
 float log_ratio_of_colours(const Image<Rgb8>& picture, const Mask& region, const Mask& a, const Mask& b) {
   constexpr float kEver = 1e-3f;  // of the pixels: what a mask does not show now it may still have
-  const cv::Mat lab = lab_of(as_const_mat(picture));
-  const std::array<float, kBins> of_region = shares_of(lab, region), of_a = shares_of(lab, a),
-                                 of_b = shares_of(lab, b);
+  const std::vector<std::uint16_t> colour = colour_bins(picture);
+  const std::array<float, kColourBins> of_region = shares_of(colour, region), of_a = shares_of(colour, a),
+                                       of_b = shares_of(colour, b);
   float mean = 0;
-  for (std::size_t bin = 0; bin < kBins; ++bin)
+  for (std::size_t bin = 0; bin < kColourBins; ++bin)
     mean += of_region[bin] * std::log((of_a[bin] + kEver) / (of_b[bin] + kEver));
   return mean;
 }

@@ -8,6 +8,7 @@
 #include "segment/masks/mask_tools.h"
 #include "segment/selection/click_reach.h"
 #include "segment/selection/region_by_colour.h"
+#include "segment/selection/settled_by_colour.h"
 
 namespace splatcut {
 
@@ -93,20 +94,25 @@ std::span<const Mask> ClickSelection::meanings() const {
   return offers_ ? std::span<const Mask>(offers_->masks) : std::span<const Mask>();
 }
 
-// Offers the likeliest meaning, then the next likely ones that look clearly different.
-void ClickSelection::note_offers(const LeafView& view, const Answers& found) {
+// Offers the likeliest meaning, then the next likely ones that look clearly different. Each is settled where
+// the trees disagree.
+void ClickSelection::note_offers(const LeafView& view, const Answers& found,
+                                 std::span<const PartMeaning> meanings) {
   Offers offers;
-  std::vector<std::vector<std::uint8_t>> taken;  // leaves of each
   for (const Candidate& candidate : found.candidates) {
     if (std::ssize(offers.meant) == kMostMeanings ||
         candidate.cost > found.candidates.front().cost + model_.offered)
       break;
     std::vector<std::uint8_t> leaves = leaves_changed(found, candidate);
-    if (std::ranges::any_of(taken, [&](const auto& other) { return look_alike(view, other, leaves); }))
-      continue;
-    offers.meant.push_back(candidate);
+    const auto offered_already = [&] {
+      return std::ranges::any_of(offers.meant,
+                                 [&](const auto& other) { return look_alike(view, other, leaves); });
+    };
+    if (offered_already()) continue;
+    leaves = settled_by_colour(parts_, view, meanings, leaves);
+    if (offered_already()) continue;
     offers.masks.push_back(shown(view.leaves, view.camera, leaves));
-    taken.push_back(std::move(leaves));
+    offers.meant.push_back(std::move(leaves));
   }
   offers_ = std::make_shared<const Offers>(std::move(offers));
 }

@@ -100,7 +100,7 @@ class ClickSelection {
                          std::uint32_t leaf) const;
   std::vector<std::uint32_t> disc(const Camera& camera, const glm::ivec2& at, float radius_px,
                                   float least_radius_px) const;
-  void note_offers(const LeafView& view, const Answers& answers);
+  void note_offers(const LeafView& view, const Answers& answers, std::span<const PartMeaning> meanings);
   std::vector<std::uint8_t> first_leaves(const LeafView& view, const Answers& answers, int size_step);
   struct CorrectedPixels {
     std::span<const std::uint32_t> spot, by_colour;  // what a correction of any size, and of its own, changes
@@ -131,8 +131,8 @@ class ClickSelection {
   int choice_;
   SelectedParts selected_;
   struct Offers {
-    std::vector<Candidate> meant;
-    std::vector<Mask> masks;  // mask of each meaning in the first click's view
+    std::vector<std::vector<std::uint8_t>> meant;  // leaves of each meaning
+    std::vector<Mask> masks;                       // mask of each meaning in the first click's view
   };
   std::shared_ptr<const Offers> offers_;
   struct OfferedSizes {

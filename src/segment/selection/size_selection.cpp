@@ -22,19 +22,20 @@ std::span<const Mask> ClickSelection::size_masks() const {
 // Notes the meanings and the sizes of the one that is chosen. Returns the leaves of the size that is taken.
 std::vector<std::uint8_t> ClickSelection::first_leaves(const LeafView& view, const Answers& found,
                                                        int size_step) {
-  note_offers(view, found);
-  choice_taken_ = std::min(static_cast<std::size_t>(std::max(choice_, 0)), offers_->meant.size() - 1);
-  const Candidate& chosen = offers_->meant[choice_taken_];
   std::vector<PartMeaning> all;
   const auto add = [&](std::span<const Candidate> some) {
     for (const Candidate& c : some)
-      all.push_back({static_cast<std::uint32_t>(c.chain), found.chains[c.chain].nodes[c.index], {}, c.cost});
+      all.push_back(
+          {static_cast<std::uint32_t>(c.chain), found.chains[c.chain].nodes[c.index], c.terms, c.cost});
   };
   add(found.candidates);
   selected_.meanings = std::make_shared<const std::vector<PartMeaning>>(all);
   add(found.unlikely);
+  std::ranges::stable_sort(all, {}, &PartMeaning::cost);
+  note_offers(view, found, all);
+  choice_taken_ = std::min(static_cast<std::size_t>(std::max(choice_, 0)), offers_->meant.size() - 1);
   std::vector<std::uint8_t> taken =
-      note_sizes(view, part_sizes(parts_, leaves_changed(found, chosen), all, view.leaf_px), size_step, {});
+      note_sizes(view, part_sizes(parts_, offers_->meant[choice_taken_], all, view.leaf_px), size_step, {});
   note_certainty(view, taken);
   return taken;
 }

@@ -68,9 +68,7 @@ std::shared_ptr<const ClickSelection> StrokeReplay::after(const Drawer& drawer, 
   while (!job.cancelled()) {
     LeafView* seen = view(drawer, said, width_px, job);
     if (!seen) return nullptr;
-    const bool by_colour = said.stroke.is_box() ? !before.any()
-                                                : before.any() && said.stroke.is_click() &&
-                                                      said.stroke.label == SeedLabel::kRest;
+    const bool by_colour = !before.any() || (said.stroke.is_click() && said.stroke.label == SeedLabel::kRest);
     if (by_colour && seen->colour.empty()) {
       draw_colour(drawer, seen, job, said.seen);
       if (job.cancelled()) {

@@ -127,6 +127,9 @@ struct MaskToPartsOptions {
 
 struct PartModel {
   // Whoever changes a value raises the version and says here what was searched on what.
+  // Version 19: what the trees disagree about after a first click is settled by colour
+  // (selection/settled_by_colour.h), without a weight that was searched.
+  //
   // Version 18: from the second correction on, a click on the object pays for what would make it much larger,
   // with the weight of Term::kTakes; all that could win by kOffCentre is looked at (docs/clicks.md).
   //
@@ -153,7 +156,7 @@ struct PartModel {
   // Version 9: what a first click means is fitted by `splatcut-lab fit` on the scenes of docs/clicks.md,
   // which shows the fit without each of the captures; what corrections mean is set by hand on the same
   // scenes, last the cost of a click on the rest that takes nearly all of the object (Term::kTakes).
-  static constexpr int kVersion = 18;
+  static constexpr int kVersion = 19;
   PartOptions parts;
   SelectionModel selection;
   MaskToPartsOptions of_mask;

@@ -1,0 +1,134 @@
+#include "segment/selection/settled_by_colour.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <ranges>
+
+#include "segment/masks/colour_overlap.h"
+
+namespace splatcut {
+
+namespace {
+
+using TreesHeld = std::uint64_t;  // a bit for each voter: a group's name
+
+struct Votes {
+  std::vector<TreesHeld> held_by;  // per leaf
+  std::vector<float> share;        // per leaf
+  TreesHeld all = 0;               // of all voters
+  bool undecided(std::size_t leaf) const { return held_by[leaf] != 0 && held_by[leaf] != all; }
+};
+
+Votes votes_for(const PartHierarchy& parts, const LeafView& view, std::span<const PartMeaning> meanings,
+                std::span<const std::uint8_t> taken) {
+  constexpr float kAlike = 0.6f, kUnlikely = 6;  // ln 400: such a vote changes nothing
+  constexpr std::size_t kMostVoters = 64;
+  Votes votes{.held_by = std::vector<TreesHeld>(parts.leaves, 0),
+              .share = std::vector<float>(parts.leaves, 0)};
+  std::vector<std::uint8_t> voted(parts.trees.size(), 0);
+  std::size_t voters = 0;
+  float first_cost = 0, sum = 0;
+  for (const PartMeaning& meaning : meanings) {
+    if (voters == kMostVoters || meaning.cost > meanings.front().cost + kUnlikely) break;
+    if (voted[meaning.tree]) continue;
+    const std::vector<std::uint8_t> held = leaves_of(parts, meaning.tree, meaning.node);
+    if (iou(view.leaf_px, taken, held) < kAlike) continue;
+    if (voters == 0) first_cost = meaning.cost;
+    const float vote = std::exp(first_cost - meaning.cost);
+    const TreesHeld bit = TreesHeld{1} << voters++;
+    for (std::uint32_t l = 0; l < parts.leaves; ++l) {
+      if (!held[l]) continue;
+      votes.held_by[l] |= bit;
+      votes.share[l] += vote;
+    }
+    votes.all |= bit;
+    sum += vote;
+    voted[meaning.tree] = 1;
+  }
+  for (float& share : votes.share) share /= std::max(sum, 1e-6f);
+  return votes;
+}
+
+// The leaf that makes most of each pixel; kNoPart where there is none.
+std::vector<std::uint32_t> leaf_of_pixels(const LeafView& view) {
+  std::vector<std::uint32_t> leaf(view.colour.size(), kNoPart);
+  for (std::size_t pixel = 0; pixel < leaf.size(); ++pixel)
+    if (const auto weights = view.leaves.at(pixel); !weights.empty()) leaf[pixel] = weights.front().group;
+  return leaf;
+}
+
+// Per colour, how much likelier it is in the object than around it: ln((p + e) / (q + e)). Around it: within
+// half of its extent on each side.
+std::array<float, kColourBins> colours_speak(const LeafView& view, std::span<const std::uint16_t> colour,
+                                             std::span<const std::uint32_t> leaf, const Votes& votes) {
+  constexpr float kAround = 0.5f, kEver = 1e-3f;
+  const int width = view.camera.width_px, height = view.camera.height_px;
+  const auto share = [&](std::size_t pixel) { return leaf[pixel] == kNoPart ? 0 : votes.share[leaf[pixel]]; };
+  BoxPx extent{{static_cast<float>(width), static_cast<float>(height)}, {0, 0}};
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      if (share(static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                static_cast<std::size_t>(x)) <= 0)
+        continue;
+      extent.low_px = glm::min(extent.low_px, glm::vec2(x, y));
+      extent.high_px = glm::max(extent.high_px, glm::vec2(x + 1, y + 1));
+    }
+  const glm::vec2 margin_px = kAround * extent.size_px();
+  const BoxPx around{extent.low_px - margin_px, extent.high_px + margin_px};
+  std::array<std::array<float, kColourBins>, 2> pixels{};
+  std::array<float, 2> all{};
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      if (!around.contains(glm::vec2(x, y) + 0.5f)) continue;
+      const std::size_t pixel =
+          static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+      const float object = share(pixel);
+      pixels[0][colour[pixel]] += 1 - object;
+      pixels[1][colour[pixel]] += object;
+      all[0] += 1 - object;
+      all[1] += object;
+    }
+  std::array<float, kColourBins> ratio{};
+  for (std::size_t bin = 0; bin < kColourBins; ++bin)
+    ratio[bin] = std::log((pixels[1][bin] / std::max(all[1], 1.0f) + kEver) /
+                          (pixels[0][bin] / std::max(all[0], 1.0f) + kEver));
+  return ratio;
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> settled_by_colour(const PartHierarchy& parts, const LeafView& view,
+                                            std::span<const PartMeaning> meanings,
+                                            std::span<const std::uint8_t> taken) {
+  constexpr float kLeastPx = 3, kLeastShare = 0.03f;
+  std::vector<std::uint8_t> settled(taken.begin(), taken.end());
+  if (view.colour.empty() || meanings.empty()) return settled;
+  const Votes votes = votes_for(parts, view, meanings, taken);
+  const auto undecided = [&](std::size_t leaf) { return votes.undecided(leaf); };
+  if (std::ranges::none_of(std::views::iota(std::size_t{0}, settled.size()), undecided)) return settled;
+  const std::vector<std::uint16_t> colour = colour_bins(view.colour);
+  const std::vector<std::uint32_t> leaf = leaf_of_pixels(view);
+  const std::array<float, kColourBins> ratio = colours_speak(view, colour, leaf, votes);
+  struct Group {
+    float ratio = 0, px = 0;
+  };
+  std::map<TreesHeld, Group> groups;
+  for (std::size_t pixel = 0; pixel < leaf.size(); ++pixel) {
+    if (leaf[pixel] == kNoPart || !undecided(leaf[pixel])) continue;
+    Group& group = groups[votes.held_by[leaf[pixel]]];
+    group.ratio += ratio[colour[pixel]];
+    ++group.px;
+  }
+  for (std::size_t l = 0; l < settled.size(); ++l) {
+    if (!undecided(l)) continue;
+    const Group& group = groups[votes.held_by[l]];
+    if (group.px < kLeastPx) continue;  // nothing of it is seen
+    const float share = std::clamp(votes.share[l], kLeastShare, 1 - kLeastShare);
+    settled[l] = std::log(share / (1 - share)) + group.ratio / group.px > 0;
+  }
+  return settled;
+}
+
+}  // namespace splatcut

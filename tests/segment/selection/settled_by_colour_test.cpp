@@ -1,0 +1,87 @@
+// What two trees disagree about: by hand on stripes, of which the first two are red and the last is green.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <utility>
+
+#include "four_stripes.h"
+#include "segment/masks/mask_tools.h"
+#include "segment/selection/settled_by_colour.h"
+
+using namespace splatcut;
+using namespace splatcut::testing;
+
+namespace {
+
+constexpr Rgb8 kRed{200, 30, 30}, kLeafGreen{40, 160, 40};
+constexpr std::uint32_t kPair = 4, kAll = 6;  // nodes of four_leaves()
+
+PartHierarchy disagreeing_trees() {
+  PartHierarchy parts = four_leaves();
+  parts.trees.push_back(parts.trees.front());
+  return parts;
+}
+
+// The third stripe has that colour. What stands behind the last stripe is no leaf, unless leaf 3 does.
+LeafView coloured(const PartHierarchy& parts, const Rgb8& third, bool last_shows = false) {
+  LeafView view = stripes(parts, {0, 1, 2, last_shows ? 3 : -1});
+  view.colour = Image<Rgb8>(40, 10);
+  for (int y = 0; y < 10; ++y)
+    for (int x = 0; x < 40; ++x) view.colour.at(x, y) = x < 20 ? kRed : x < 30 ? third : kLeafGreen;
+  return view;
+}
+
+// One tree holds the pair alone, the other all, at a cost that is so much higher.
+std::vector<PartMeaning> disagreeing(float dearer) {
+  return {{0, kPair, {}, 1}, {1, kAll, {}, 1 + dearer}};
+}
+
+}  // namespace
+
+TEST_CASE("settled by colour: what looks like the object joins it where the trees are not too sure") {
+  // The other tree's share is s = 1 / (1 + e^c), so ln(s / (1 - s)) = -c. The third stripe counts as rest by
+  // 1 - s of its pixels, beside as many green ones: r = ln(1 / ((1 - s) / (2 - s))) = ln(2 + e^-c). Their sum
+  // is above 0 while e^c is below 1 + sqrt(2): c below .88.
+  const PartHierarchy parts = disagreeing_trees();
+  const LeafView view = coloured(parts, kRed);
+  const Labels pair{1, 1, 0, 0};
+  CHECK(settled_by_colour(parts, view, disagreeing(0.85f), pair) == Labels{1, 1, 1, 1});  // 3 is hidden
+  CHECK(settled_by_colour(parts, view, disagreeing(0.91f), pair) == pair);
+}
+
+TEST_CASE("settled by colour: what looks like the rest leaves the object") {
+  const PartHierarchy parts = disagreeing_trees();
+  const std::vector<PartMeaning> all_first = {{1, kAll, {}, 1}, {0, kPair, {}, 1.5f}};
+  const Labels pair{1, 1, 0, 0}, all{1, 1, 1, 1};
+  CHECK(settled_by_colour(parts, coloured(parts, kLeafGreen), all_first, all) == pair);
+  CHECK(settled_by_colour(parts, coloured(parts, kRed), all_first, all) == all);
+}
+
+TEST_CASE("settled by colour: other meanings are no doubts, and nothing is settled without colour") {
+  const PartHierarchy parts = disagreeing_trees();
+  const Labels pair{1, 1, 0, 0};
+  // Seen whole, all is twice the pair: another thing.
+  CHECK(settled_by_colour(parts, coloured(parts, kRed, true), disagreeing(0), pair) == pair);
+  LeafView grey = coloured(parts, kRed);
+  grey.colour = {};
+  CHECK(settled_by_colour(parts, grey, disagreeing(0), pair) == pair);
+  CHECK(settled_by_colour(parts, coloured(parts, kRed), {}, pair) == pair);
+}
+
+TEST_CASE("settled by colour: a first click is, and its sizes and offers begin there") {
+  // Each tree's cheapest part by its border: the pair of the first, all of the second, which is .8 dearer.
+  PartHierarchy parts = disagreeing_trees();
+  for (PartTree& tree : parts.trees) tree.cut = {9, 9, 9, 9, 9, 9, 9};
+  parts.trees[0].cut[kPair] = 0.01f * std::sqrt(parts.trees[0].area[kPair]);
+  parts.trees[1].cut[kAll] = 0.01f * std::exp(0.8f) * std::sqrt(parts.trees[1].area[kAll]);
+  for (const auto& [third, expected] :
+       {std::pair{kRed, Labels{1, 1, 1, 1}}, std::pair{kLeafGreen, Labels{1, 1, 0, 0}}}) {
+    ClickSelection selection(parts, borders_alone());
+    const LeafView view = coloured(parts, third);
+    REQUIRE(selection.apply(view, object(5)));
+    CHECK(selection.labels() == expected);
+    REQUIRE(!selection.meanings().empty());
+    CHECK(iou(selection.meanings()[0], shown(view.leaves, view.camera, expected)) == 1);
+    CHECK(iou(selection.size_masks()[selection.size()], selection.meanings()[0]) == 1);
+  }
+}
