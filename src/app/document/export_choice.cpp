@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cstdlib>
 
 #include "app/document/words.h"
@@ -103,6 +104,16 @@ std::string amount_text(const ExportChoice& choice, std::size_t gaussians, const
                                : "",
                      grouped(left_to_write(choice, gaussians, edges, hole)),
                      about || plan.about ? "about " : "", human_bytes(plan.bytes));
+}
+
+std::string kept_text(const ExportChoice& choice, const FormatPlan& plan) {
+  std::string what = plan.kept;  // a sentence
+  if (!what.empty()) what[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(what[0])));
+  return (choice.placement == ExportPlacement{} ? "Kept: " : "Written: ") + what;
+}
+
+std::string moved_text(const ExportPlacement& placement) {
+  return placement == ExportPlacement{} ? "" : "It stands as chosen above, not as in the scene.";
 }
 
 std::string edges_stay_text(const EdgesKnown& edges) {

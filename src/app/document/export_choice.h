@@ -74,6 +74,10 @@ std::size_t left_to_write(const ExportChoice& choice, std::size_t gaussians, con
 // they are made, nor what fills a hole.
 std::string amount_text(const ExportChoice& choice, std::size_t gaussians, const EdgesKnown& edges,
                         const HoleKnown& hole, const FormatPlan& plan);
+// What a file of that format holds, and that it stands otherwise than in the scene; the second one is empty
+// where it does not.
+std::string kept_text(const ExportChoice& choice, const FormatPlan& plan);
+std::string moved_text(const ExportPlacement& placement);
 // Whose edges stay, though clean ones are asked for; empty: nobody's.
 std::string edges_stay_text(const EdgesKnown& edges);
 // What clean edges and the hole change in what is written; empty: nothing.

@@ -61,6 +61,7 @@ struct SceneSource {
   std::optional<glm::dvec3> origin;
   ScenePlace place;  // place in the scene; the first file always stays where its coordinates say
   std::optional<StandsOn> onto = {};  // loading sets the place by it
+  std::uint32_t fills = 0;            // ObjectId of the object whose hole it was kept to fill; 0: none
 
   // Loading sets the rest.
   std::uint64_t hash = 0;  // hash_of_file(); in a work file the hash that the file must have

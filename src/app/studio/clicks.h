@@ -83,6 +83,7 @@ class Clicks {
 
   bool hits_anything(const AddStroke& c) const;
   std::string already_so(const AddStroke& c) const;
+  bool has_all(const Flags& seen) const;
   const ClickMeanings* meanings(const ObjectItem& object) const;
   const ClickMeanings* offered() const;
   std::optional<HoverAsk> hover_wanted() const;

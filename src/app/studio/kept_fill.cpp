@@ -43,9 +43,9 @@ void SceneFiles::perform(const KeepFill& c) {
                        path.string() + " is written, but not added: what it fills has changed meanwhile");
       std::vector<std::uint8_t> replaced(ws_.gaussians(), 0);
       for (const std::uint32_t g : without->patch.changes.ghosts) replaced[g] = 1;
-      filling_ = {{next_file_id_, ws_.document().active}, make_flags(std::move(replaced))};
+      filling_ = {next_file_id_, make_flags(std::move(replaced))};
       std::vector<SceneSource> files = wanted_files();
-      files.push_back({.id = next_file_id_++, .path = path});
+      files.push_back({.id = next_file_id_++, .path = path, .fills = ws_.document().active});
       change_files(std::move(files), "Keeping what fills the hole",
                    {"Fill kept; it is an object, and a file of the scene", {}});
     });
@@ -53,16 +53,14 @@ void SceneFiles::perform(const KeepFill& c) {
 }
 
 bool SceneFiles::fills_hole_of(ObjectId object) const {
-  return std::ranges::any_of(
-      filled_, [&](const Filled& fill) { return fill.object == object && ws_.scene->file(fill.file); });
+  return object != 0 && ws_.scene && std::ranges::count(ws_.scene->files, object, &SceneSource::fills) > 0;
 }
 
 // The document is that of the scene with the file.
 void SceneFiles::fill_came(const OpenedScene& scene, const Flags& replaced) {
   const auto fill = std::exchange(filling_, {});
   if (!fill || !replaced) return;
-  ws_.history.push("Fill as an object", with_fill(ws_.document(), scene, fill->of.file, replaced));
-  filled_.push_back(fill->of);
+  ws_.history.push("Fill as an object", with_fill(ws_.document(), scene, fill->file, replaced));
   ws_.view.fill_hole = false;  // it is filled
   ws_.ui_requests.push_back(UiRequest::kFillKept);
 }

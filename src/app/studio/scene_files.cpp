@@ -249,7 +249,7 @@ void SceneFiles::carry_document(const std::shared_ptr<OpenedScene>& scene, const
     job.progress("carrying labels", 0);
     CarriedDocument carry(*before, *scene);
     history.carry(std::ref(carry));
-    const Flags replaced = fill && scene->file(fill->of.file) ? carry.carried(fill->replaced) : nullptr;
+    const Flags replaced = fill && scene->file(fill->file) ? carry.carried(fill->replaced) : nullptr;
     if (job.cancelled()) return;
     ws_.tasks.post([this, scene, said, replaced, before, history = std::move(history), serial] {
       calls_.in_turn([this, scene, said, replaced, before, history, serial] {
@@ -421,7 +421,6 @@ void SceneFiles::opened(const std::shared_ptr<OpenedScene>& scene, const std::op
   before_files_.clear();
   undone_files_.clear();
   filling_.reset();
-  filled_.clear();
   take(scene);
   Document start;
   start.up_world = scene->views().up_world;

@@ -107,16 +107,11 @@ class SceneFiles {
   std::uint32_t next_file_id_ = 1;
   std::vector<SceneSource> changing_to_;  // files of the scene that is being made; empty: none is made
 
-  struct Filled {
-    std::uint32_t file = 0;
-    ObjectId object = 0;  // whose hole the file fills
-  };
   struct Fill {
-    Filled of;
+    std::uint32_t file = 0;
     Flags replaced;  // Gaussians of the present scene that it stands in place of
   };
   std::optional<Fill> filling_;  // of the file that is on its way, or was when the last change failed
-  std::vector<Filled> filled_;   // of those that came
 
   // A scene with everything that was made from it, kept to go back to as a whole.
   struct Kept {

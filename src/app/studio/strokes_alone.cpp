@@ -5,6 +5,16 @@
 
 namespace splatcut {
 
+// Whether the active object has all that a view shows: a box there could add nothing.
+bool Clicks::has_all(const Flags& seen) const {
+  const ObjectItem* object = ws_.document().active_object();
+  if (!object || !seen || cuts_.comes(*object)) return false;
+  const std::vector<std::uint8_t> labels = labels_of(ws_.document(), *object, ws_.gaussians());
+  for (std::size_t g = 0; g < labels.size(); ++g)
+    if ((*seen)[g] && !labels[g]) return false;
+  return true;
+}
+
 void Clicks::combine_with(const CameraStroke& stroke, SetOperation operation, const std::string& title) {
   const ObjectItem* object = ws_.document().active_object();
   if (!object || ws_.gaussians_of(object->id) == 0)
@@ -49,6 +59,9 @@ void Clicks::perform(const AddBox& c) {
     made.hits = viewport_.hit_by({c.camera, stroke_of(c, SeedLabel::kObject), c.seen});
   Document after = ws_.document();
   const std::string message = edit(&after, made, ws_.context());
+  if (has_all(c.seen))
+    throw Error("", "All that is shown belongs to " + ws_.document().active_object()->name + " already",
+                "The right button, or Ctrl, removes what a box holds; Alt keeps it alone");
   edits_.push(c.title(), std::move(after), {}, message);
 }
 

@@ -84,15 +84,16 @@ constinit const Tool Tool::kBox = {
     .name = "Box around the object",
     .key = '4',
     .sentence =
-        "Drag a box around the object. Shift adds what is in the box, Ctrl removes it, Alt keeps of "
-        "the object what is in it. Clicks correct it, as with Click an object.",
-    .hint = "drag around the object   Shift: add   Ctrl: remove   Alt: intersect   right click: rest",
+        "Drag a box around the object. Shift adds what is in the box, the right button (or Ctrl) removes it, "
+        "Alt keeps of the object what is in it. Clicks correct it, as with Click an object.",
+    .hint = "drag around the object   Shift: add   right (or Ctrl): remove   Alt: intersect",
     .icon =
         [] {
           return Icon{icon_loop({{-0.9f, -0.75f}, {0.9f, -0.75f}, {0.9f, 0.75f}, {-0.9f, 0.75f}}),
                       icon_dot(0, 0, 0.32f)};
         },
     .drag = Drag::kCorners,
+    .right_drags = true,
     .strokes = true,
     .shows_keys = true,
     .clicks_object = true,
@@ -101,7 +102,7 @@ constinit const Tool Tool::kBox = {
           const std::vector<glm::vec2>& corners = hand.state.path_px;
           if (corners.size() == 2)
             hand.ask(AddBox{hand.context.pane_camera, corners[0], corners[1], hand.context.seen(),
-                            hand.state.held_operation()});
+                            hand.state.right() ? SetOperation::kRemove : hand.state.held_operation()});
         },
     .click = click_object,
     .shape = ToolShape::kRectangle,

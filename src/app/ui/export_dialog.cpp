@@ -306,10 +306,9 @@ void export_dialog(UiContext& ui) {
   const Palette& p = ui.theme.colour;
   line_across(p);
   fact(icon::kInfo, p.accent, amount_text(choice, gaussians, edges, hole, plan));
-  const bool moves = choice.placement != ExportPlacement{};  // then not all of it is kept as it was
-  fact(icon::kCheck, p.good,
-       (moves ? "Written as moved, with turned spherical harmonics: " : "Kept: ") + plan.kept);
-  for (const std::string& text : {edges_stay_text(edges), changes_text(choice, edges, hole)})
+  fact(icon::kCheck, p.good, kept_text(choice, plan));
+  for (const std::string& text :
+       {moved_text(choice.placement), edges_stay_text(edges), changes_text(choice, edges, hole)})
     if (!text.empty()) fact(icon::kInfo, p.accent, text);
   if (const std::string why = hole.why_not(); !why.empty())
     fact(icon::kWarning, p.warn, "The hole stays: " + why + ".");

@@ -137,6 +137,7 @@ struct UiState {
   float options_height = kOptionsHeight;  // of their rows under it, as they were last
   double message_s = -1;                  // time of the message whose place was chosen
   bool message_at_right = false;
+  UiRect message;               // where one shows; no size: none does
   bool double_clicked = false;  // the last press was the second of two, by the events' own times
   bool steady = false;          // for pictures that must repeat: no times, no version, no blinking
   std::vector<std::filesystem::path> recent;

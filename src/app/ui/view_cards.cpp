@@ -65,7 +65,7 @@ void card(UiContext& ui, const ObjectItem& object, const ViewCard& c, std::size_
   ImGui::SetItemAllowOverlap();
   const bool hovered = ImGui::IsItemHovered();
   ui.state.items.push_back({fmt::format("side {}", index), {at.x, at.y}, {at.x + width, at.y + height}});
-  tooltip(tip_of_card(c, index, ui.state.steady));
+  tooltip(tip_of_card(c, index, ui.state.steady), ui.state.message);
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const ImVec2 end = {at.x + width, at.y + height};
   list.AddImageRounded(ui.renderer.texture(kCardKey + index, c.serial, *c.picture), at, end, {0, 0}, {1, 1},

@@ -79,7 +79,7 @@ namespace {
 
 // Where a tooltip of that size covers nothing that one moves on to: beside a column or a menu, under or over
 // a row.
-ImVec2 tooltip_place(const ImVec2& size) {
+ImVec2 tooltip_place(const ImVec2& size, const UiRect& message) {
   constexpr float kTooltipGap = 6;
   const ImGuiWindow& window = *ImGui::GetCurrentWindow()->RootWindow;
   const ImVec2 screen = ImGui::GetIO().DisplaySize, from = ImGui::GetItemRectMin(),
@@ -96,18 +96,21 @@ ImVec2 tooltip_place(const ImVec2& size) {
     at = {from.x, to.y + kTooltipGap};
     if (at.y + size.y > screen.y) at.y = from.y - kTooltipGap - size.y;
   }
+  if (ImRect(at, {at.x + size.x, at.y + size.y})
+          .Overlaps({message.min.x, message.min.y, message.max.x, message.max.y}))
+    at.y = message.min.y - kTooltipGap - size.y;
   return {std::clamp(at.x, 0.0f, std::max(0.0f, screen.x - size.x)),
           std::clamp(at.y, 0.0f, std::max(0.0f, screen.y - size.y))};
 }
 
 }  // namespace
 
-void tooltip(const std::string& text) {
+void tooltip(const std::string& text, const UiRect& message) {
   if (text.empty() || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
   constexpr float kWidest = 320;
   const ImVec2 padding = ImGui::GetStyle().WindowPadding,
                words = ImGui::CalcTextSize(text.c_str(), nullptr, false, kWidest - padding.x);
-  ImGui::SetNextWindowPos(tooltip_place({words.x + 2 * padding.x, words.y + 2 * padding.y}));
+  ImGui::SetNextWindowPos(tooltip_place({words.x + 2 * padding.x, words.y + 2 * padding.y}, message));
   ImGui::BeginTooltip();
   ImGui::PushTextWrapPos(kWidest);
   ImGui::TextUnformatted(text.c_str());

@@ -67,7 +67,8 @@ void same_line_if_fits(const char* label, float spacing);  // for a button with 
 
 void progress_bar(UiContext& ui, double fraction, float width);  // thin, in the middle of a line
 
-void tooltip(const std::string& text);  // of the last item
+// Of the last item. message: it stays above that.
+void tooltip(const std::string& text, const UiRect& message = {});
 // At the pointer, inside of a part of the screen.
 void tooltip_within(const UiRect& area, const std::string& text);
 void muted_text(UiContext& ui, const std::string& text);

@@ -62,6 +62,7 @@ std::size_t covers(const UiContext& ui, const UiRect& picture, const UiRect& rec
 
 // In the lower corner that covers less of the object as the message comes; there it stays.
 void draw_message(const UiContext& ui, const UiRect& area) {
+  ui.state.message = {};
   if (ui.studio.messages().empty()) return;
   const Message& message = ui.studio.messages().back();
   if (ui.studio.clock_s() - message.time_s > kMessageSeconds) return;
@@ -75,7 +76,9 @@ void draw_message(const UiContext& ui, const UiRect& area) {
   if (std::exchange(ui.state.message_s, message.time_s) != message.time_s)
     ui.state.message_at_right =
         covers(ui, area, {right, right + size}) < covers(ui, area, {left, left + size});
-  banner(ui, vec(ui.state.message_at_right ? right : left),
+  const glm::vec2 at = ui.state.message_at_right ? right : left;
+  ui.state.message = {at, at + size};
+  banner(ui, vec(at),
          warns || fails                         ? icon::kWarning
          : message.kind == Message::Kind::kDone ? icon::kCheck
                                                 : icon::kInfo,

@@ -71,6 +71,7 @@ json source_json(const SceneSource& file, const std::filesystem::path& work) {
   if (!file.cameras.empty()) put_path(file.cameras, work, "cameras", &source);
   if (file.spz_axes) source["spz_axes"] = name_of(*file.spz_axes);
   if (file.lod.value_or(0) > 0) source["lod"] = *file.lod;
+  if (file.fills != 0) source["fills"] = file.fills;
   if (file.origin && *file.origin != glm::dvec3(0))
     source["origin"] = {file.origin->x, file.origin->y, file.origin->z};
   if (file.place != ScenePlace{})
@@ -91,6 +92,7 @@ SceneSource source_from(const json& said, const std::filesystem::path& work) {
   file.file_rows = said.value("rows", file.gaussians);
   file.spz_axes = spz_axes_from_name(said.value("spz_axes", ""));
   file.lod = said.value("lod", 0u);                         // older work holds none
+  file.fills = said.value("fills", 0u);                     // older work holds none
   const json origin = said.value("origin", json{0, 0, 0});  // older work holds none
   file.origin = {origin.at(0).get<double>(), origin.at(1).get<double>(), origin.at(2).get<double>()};
   if (!said.contains("place")) return file;

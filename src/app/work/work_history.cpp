@@ -21,14 +21,27 @@ namespace {
 constexpr std::size_t kMostArrayBytes = std::size_t{64} << 20, kMostNumbers = 4'000'000;
 
 // The labels that a cut computes again are not kept; what is locked is not cut again.
-Document without_cuts(const Document& document) {
-  Document without = document;
-  for (ObjectItem& o : without.objects)
-    if (!o.cut_kept && !(o.locked && is_stale(document, o))) {
+Document without_cuts(Document document, const auto& keeps_too) {
+  const Document all = document;
+  for (ObjectItem& o : document.objects)
+    if (!o.cut_kept && !(o.locked && is_stale(all, o)) && !keeps_too(o)) {
       o.cut = nullptr;
       o.cut_key.clear();
     }
-  return without;
+  return document;
+}
+
+Document without_cuts(const Document& document) {
+  return without_cuts(document, [](const ObjectItem&) { return false; });
+}
+
+// The next undo and redo wait for no cut. Labels that are those of `now` come from there, see
+// History::reset().
+Document next_to(const Document& now, const Document& document) {
+  return without_cuts(document, [&](const ObjectItem& o) {
+    const ObjectItem* known = now.find(o.id);
+    return !is_stale(document, o) && !(known && known->cut_key == o.cut_key);
+  });
 }
 
 // Each array once, by number; whether there is room is said before it is needed.
@@ -103,22 +116,26 @@ SavedSteps saved_steps(const History& history) {
 json history_json(const SavedSteps& history, const Scene& scene) {
   ArrayTable arrays(scene);
   ObjectTable objects;
-  const auto step_json = [&](const SavedSteps::Step& step) {
-    json out = document_json(without_cuts(step.document),
-                             [&](const Flags& flags) { return arrays.number_of(flags); });
+  const auto kept = [&](std::size_t i) {
+    const Document& document = history.steps[i].document;
+    const bool next = i + 1 == history.cursor || i == history.cursor + 1;
+    Document out = next ? next_to(history.steps[history.cursor].document, document) : without_cuts(document);
+    return next && !arrays.has_room_for(out) ? without_cuts(document) : out;
+  };
+  const auto step_json = [&](std::size_t i) {
+    const SavedSteps::Step& step = history.steps[i];
+    json out = document_json(kept(i), [&](const Flags& flags) { return arrays.number_of(flags); });
     for (json& object : out["objects"]) object = objects.number_of(std::move(object));
     out["title"] = step.title;
     if (step.other_files) out["other_files"] = true;
     return out;
   };
-  const auto fits = [&](std::size_t i) {
-    return arrays.has_room_for(without_cuts(history.steps[i].document));
-  };
+  const auto fits = [&](std::size_t i) { return arrays.has_room_for(kept(i)); };
   std::vector<json> back, on;  // from the cursor
-  for (std::size_t i = history.cursor + 1; i-- > 0 && fits(i);) back.push_back(step_json(history.steps[i]));
+  for (std::size_t i = history.cursor + 1; i-- > 0 && fits(i);) back.push_back(step_json(i));
   if (back.empty()) return nullptr;
   for (std::size_t i = history.cursor + 1; i < history.steps.size() && fits(i); ++i)
-    on.push_back(step_json(history.steps[i]));
+    on.push_back(step_json(i));
   json steps = json::array();
   for (auto step = back.rbegin(); step != back.rend(); ++step) steps.push_back(std::move(*step));
   for (json& step : on) steps.push_back(std::move(step));

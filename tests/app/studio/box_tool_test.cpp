@@ -93,6 +93,51 @@ TEST_CASE("hands: a click with the box in hand is a click, of either button") {
   CHECK(count_flags(both) > count_flags(without));
 }
 
+TEST_CASE("hands: a box with the right button removes as one with Ctrl does, and the view stays") {
+  Hands hands = hands_on_sample();
+  const auto labels = [&] { return hands.studio().labels(hands.studio().document().active); };
+  hands.app.click(hands.app.screen_of(kOnOrange));
+  REQUIRE(hands.app.settle());
+  const auto both = labels();
+  hands.app.key('4');
+  const glm::vec2 at = hands.app.screen_of(kOnOrange);
+  const CameraPose pose = hands.studio().viewport().camera().pose();
+  hands.app.drag({at - 34.0f, at, at + 34.0f}, PointerButton::kRight);
+  REQUIRE(hands.app.settle());
+  CHECK(hands.studio().viewport().camera().pose() == pose);
+  const auto by_button = labels();
+  CHECK(count_flags(by_button) < count_flags(both));
+  hands.app.key('Z', {.ctrl = true});
+  REQUIRE(hands.app.settle());
+  REQUIRE(labels() == both);
+  hands.app.move(at - 34.0f, {.ctrl = true});
+  hands.app.press(PointerButton::kLeft, {.ctrl = true});
+  hands.app.move(at + 34.0f, {.ctrl = true});
+  hands.app.release(PointerButton::kLeft, {.ctrl = true});
+  REQUIRE(hands.app.settle());
+  CHECK(labels() == by_button);
+}
+
+TEST_CASE("hands: a box that could only add is refused where the object is shown alone, the others work") {
+  Hands hands = hands_on_sample();
+  hands.app.click(hands.app.screen_of(kOnOrange));
+  REQUIRE(hands.app.settle());
+  hands.studio().run(Action::kIsolate);
+  hands.app.key('4');
+  const std::size_t steps = hands.steps(), both = hands.selected();
+  const glm::vec2 at = hands.app.screen_of(kOnOrange);
+  hands.app.drag({at - 34.0f, at, at + 34.0f});
+  CHECK(hands.steps() == steps);
+  CHECK(hands.said() ==
+        "All that is shown belongs to Object 1 already. The right button, or Ctrl, removes what a box holds; "
+        "Alt keeps it alone.");
+  CHECK(hands.selected() == both);
+  hands.app.drag({at - 34.0f, at, at + 34.0f}, PointerButton::kRight);
+  CHECK(hands.steps() == steps + 1);
+  CHECK(hands.selected() < both);
+  CHECK(hands.studio().view().display == DisplayMode::kIsolate);
+}
+
 TEST_CASE("hands: a box with Ctrl or Alt wants an object to work on") {
   Hands hands(false);
   const Camera camera = hands.studio().viewport().pane_camera();

@@ -244,6 +244,15 @@ TEST_CASE("hands: what fills a hole is kept as an object of its own, which can b
     REQUIRE(hands.app.settle());
   }
   CHECK(studio.labels(studio.document().objects[1].id) == kept);
+
+  const std::filesystem::path work = folder / "work.splatcut.json";
+  studio.apply(SaveWork{work});
+  REQUIRE(hands.app.settle());
+  studio.apply(OpenScene{work});
+  REQUIRE(hands.app.settle());
+  REQUIRE(studio.document().objects.size() == 2);
+  CHECK(studio.files().fills_hole_of(studio.document().objects[0].id));
+  CHECK_FALSE(studio.files().fills_hole_of(studio.document().objects[1].id));
 }
 
 TEST_CASE(

@@ -282,7 +282,7 @@ TEST_CASE(
   {
     HeadlessApp app(kSmallWidth, kSmallHeight, 1, with_kept_scenes());
     opened(app);
-    for (const glm::vec2& at : {kOnApple, kOnOrange, kOnMug}) {
+    for (const glm::vec2& at : {kOnApple, kOnOrange, kOnMug, glm::vec2(360, 300)}) {
       app.click(app.screen_of(at), PointerButton::kLeft, {.shift = true});
       REQUIRE(app.settle());
     }
@@ -305,19 +305,64 @@ TEST_CASE(
     REQUIRE(added + removed > 0);
     return fmt::format(", {} added and {} removed", grouped(added), grouped(removed));
   };
+  // The step next to it needs no cut.
+  undone();
+  CHECK(app.studio().messages().back().text.starts_with("Undone: "));
   for (int i = 0; i < 2; ++i) {
     const std::string expected = undone(), said = app.studio().messages().back().text;
     CAPTURE(said);
     CAPTURE(expected);
     CHECK(said.find(expected) != std::string::npos);
   }
-  // What is not known is no difference: two undone at once.
+  // What is not known is no difference: three undone at once.
   app.open(folder / "work.splatcut.json");
   app.frames(3);
   if (app->interface().dialog_open()) app.press_item("###open_anyway", {"Open"});
   REQUIRE(app.settle());
-  app.studio().apply(Undo{});
-  app.studio().apply(Undo{});
+  for (int i = 0; i < 3; ++i) app.studio().apply(Undo{});
   REQUIRE(app.settle());
   CHECK(app.studio().messages().back().text.find(" cut out in ") != std::string::npos);
+}
+
+TEST_CASE("saved work: the labels before and after the present step are kept, and found at once") {
+  const ScratchFolder folder("history_next");
+  const auto file = folder / "work.splatcut.json";
+  std::vector<std::vector<std::uint8_t>> labels;
+  {
+    Hands hands;
+    labels.push_back(active_labels(hands.app));
+    for (const glm::vec2& at : {kOnOrange, kOnMug}) {
+      hands.app.click(hands.app.screen_of(at), PointerButton::kLeft, {.shift = true});
+      REQUIRE(hands.app.settle());
+      labels.push_back(active_labels(hands.app));
+    }
+    hands.studio().apply(Undo{});
+    REQUIRE(hands.app.settle());
+    hands.studio().apply(SaveWork{file});
+    REQUIRE(hands.app.settle());
+  }
+  Hands hands(false, with_kept_scenes(), file);
+  Studio& studio = hands.studio();
+  const std::size_t cut = studio.cuts().done();
+  const auto is_there = [&](std::size_t step) {
+    CAPTURE(step);
+    CHECK_FALSE(is_stale(studio.document(), *studio.document().active_object()));
+    CHECK(active_labels(hands.app) == labels[step]);
+  };
+  is_there(1);
+  studio.apply(Undo{});
+  is_there(0);
+  studio.apply(Redo{});
+  studio.apply(Redo{});
+  is_there(2);
+  REQUIRE(hands.app.settle());
+  CHECK(studio.cuts().done() == cut);
+  // Once each, also where it is what the present step has.
+  studio.apply(RenameObject{studio.document().active, "apple"});
+  studio.apply(SaveWork{file});
+  REQUIRE(hands.app.settle());
+  const nlohmann::json written = nlohmann::json::parse(std::ifstream(file));
+  std::size_t cuts = 0;
+  for (const nlohmann::json& object : written["history"]["objects"]) cuts += !object["cut"].is_null();
+  CHECK(cuts == 0);
 }

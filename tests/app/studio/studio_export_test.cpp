@@ -251,6 +251,16 @@ TEST_CASE("exports: what is said of them names objects whose edges stay, and pro
         ", edges of some cleaned. Edges of 2 objects stay as they are, Mug the first: " + bad.why_not);
 }
 
+TEST_CASE("exports: the dialog says what is written, and of what is moved that it is, not that it is kept") {
+  const FormatPlan plan{.bytes = 1, .kept = "Places and colours.", .lost = {}};
+  ExportChoice choice;
+  CHECK(kept_text(choice, plan) == "Kept: places and colours.");
+  CHECK(moved_text(choice.placement).empty());
+  choice.placement.scale = 2;
+  CHECK(kept_text(choice, plan) == "Written: places and colours.");
+  CHECK(moved_text(choice.placement) == "It stands as chosen above, not as in the scene.");
+}
+
 TEST_CASE("exports: the dialog promises a number, and that nothing is lost, only where that holds") {
   ExportChoice choice;
   const FormatPlan plan{.bytes = 4'300'000, .kept = "all", .lost = {}};

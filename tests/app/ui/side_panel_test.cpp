@@ -82,6 +82,29 @@ TEST_CASE("ui: a message lies in the lower corner that covers less of the object
   }
 }
 
+TEST_CASE("ui: what is said of a thumbnail does not cover a message, in a narrow window either") {
+  HeadlessApp app(640, 480);
+  app.interface_state().hint_wanted = false;
+  REQUIRE(cut_out_apple(app));
+  app.frames(2);
+  std::size_t low = 0;
+  for (int side = 0; side < 6; ++side) {
+    const UiRect card = app.button("side " + std::to_string(side));
+    REQUIRE(card.size().x > 0);
+    app.studio().apply(AddBox{app.studio().viewport().pane_camera(), {5, 5}, {7, 7}});  // is refused
+    app.move(0.5f * (card.min + card.max));
+    app.frames(60);
+    const UiRect tip = app.window("##Tooltip_00"), said = app.interface_state().message;
+    REQUIRE(said.size().x > 0);
+    REQUIRE(tip.size().x > 0);
+    CAPTURE(side);
+    CHECK((tip.max.y <= said.min.y || tip.max.x <= said.min.x || tip.min.x >= said.max.x));
+    CHECK(tip.min.y >= 0);
+    low += card.max.y > said.min.y;
+  }
+  CHECK(low > 0);
+}
+
 TEST_CASE("ui: no row of the right panel moves as doubts, progress and times come and go") {
   for (const bool small : {false, true}) {
     CAPTURE(small);
