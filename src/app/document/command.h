@@ -38,7 +38,7 @@ struct EditContext {
   const GaussianCloud& cloud;
   SceneGraph* graph = nullptr;  // graph of the cloud; null if no edit asks for neighbours
   Job job{};
-  const Document* undone = nullptr;  // state that was undone last; null: none is
+  const Document* undone = nullptr;  // state that undo, redo or a jump led away from last; null: none
 };
 
 template <class C>

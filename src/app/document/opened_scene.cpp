@@ -222,7 +222,7 @@ std::shared_ptr<OpenedScene> open_first(std::vector<SceneSource> files,
                                         std::vector<std::filesystem::path>* added,
                                         std::vector<std::string>* refused, const Job& job) {
   const SceneSource& first = files.front();
-  if (!first.cameras.empty() || !first.camera.empty())  // a wrong one is no fault of the files
+  if (!first.cameras.empty())  // a wrong file or name is no fault of the scenes
     chosen_of(first, cameras_of(first, glm::dvec3(0), nullptr));
   while (true) try {
       return open_scene(files, job);

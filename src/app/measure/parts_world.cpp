@@ -91,7 +91,7 @@ PartsScene parts_scene(const EvaluationCase& scene, PartHierarchy parts, const P
       const Camera camera = small(from->camera, known == truths.end() || zoom != 1 ? nullptr : &known->truth);
       const float scale = static_cast<float>(camera.width_px) / static_cast<float>(start.camera.width_px);
       const Stroke first = scaled({from->stroke}, scale).front();
-      if (LeafView& view = drawn(camera); options.first.box_margin) draw_colour(drawer, &view, job);
+      draw_colour(drawer, &drawn(camera), job);
       made.starts.push_back(
           {zoom == 1 ? start.name : fmt::format("{} x{}", start.name, zoom), camera, first});
       made.zoom.push_back(zoom);

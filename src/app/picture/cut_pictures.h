@@ -38,7 +38,7 @@ std::vector<ViewCard> picture_cards(Session& session, const CutShown& cut, const
 CutResult with_labels(const Session& session, CutResult result, const std::vector<std::uint8_t>& labels,
                       const Job& job);
 
-// Orders cards for the strip: a card whose view is near an earlier card's takes that place, and the others
+// Orders cards for the panel: a card whose view is near an earlier card's takes that place, and the others
 // follow. The first card, which is the user's own view, stays first.
 std::vector<ViewCard> in_places_of(const std::vector<ViewCard>& before, std::vector<ViewCard> cards);
 

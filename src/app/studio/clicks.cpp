@@ -382,7 +382,8 @@ void Clicks::reset() {
   declined_offer_.clear();
 }
 
-// Before they are known, their keys are no tools either: else it would depend on the moment what a key does.
+// Before they are known, the keys of others than the likeliest are no tools either: else it would depend on
+// the moment what a key does.
 bool Clicks::chooses_by(int key) const {
   if (key < '1' || key >= '1' + kMostMeanings) return false;
   if (offer()) return true;

@@ -53,7 +53,9 @@ void SceneFiles::perform(const KeepFill& c) {
 }
 
 bool SceneFiles::fills_hole_of(ObjectId object) const {
-  return object != 0 && ws_.scene && std::ranges::count(ws_.scene->files, object, &SceneSource::fills) > 0;
+  // Without what it replaces, keeping it was undone; the object's number may be another's by now.
+  return object != 0 && ws_.scene && ws_.document().deleted &&
+         std::ranges::count(ws_.scene->files, object, &SceneSource::fills) > 0;
 }
 
 // The document is that of the scene with the file.

@@ -259,7 +259,7 @@ void Studio::perform(const SetUp& c) {
 void Studio::perform(const SetView& c) {
   if (c.view.tool != ws_.view.tool) {
     abandon_shape();
-    if (clicks_.offer()) clicks_.decline_offer();  // its keys are those of tools
+    clicks_.decline_offer();  // its keys are those of tools
   }
   if (c.view.display != ws_.view.display && c.view.display == DisplayMode::kIsolate)
     viewport_.turn_about_object();

@@ -49,9 +49,11 @@ void size_slider(UiContext& ui, const ObjectItem& object) {
     int none = 0;
     ImGui::SliderInt("##size", &none, 0, 1, "", ImGuiSliderFlags_NoInput);
     ImGui::EndDisabled();
-    return tooltip(known
-                       ? "The click means one size alone"
-                       : "Sizes of the last click, or of the box that began the object, once they are known");
+    if (known) return tooltip("The click means one size alone");
+    const std::string why = ui.studio.clicks().why_not_step(1);
+    return tooltip(why.empty()
+                       ? "Sizes of the last click, or of the box that began the object, once they are known"
+                       : why);
   }
   const auto sizes = static_cast<int>(known->count()),
              taken = static_cast<int>(ui.studio.clicks().size_wanted());

@@ -288,7 +288,7 @@ void CutJobs::show_snapshot(const Order& order, CutRun so_far, double first_mask
     now.sizes = std::move(so_far.sizes);
   }
   for (ViewCard& card : so_far.views) {
-    if (now.views_of_before) break;  // a strip that empties and fills again would be all that one sees
+    if (now.views_of_before) break;  // else one would see little but thumbnails come and go
     card.serial = next_card_serial_++;
     now.views.push_back(std::move(card));
   }

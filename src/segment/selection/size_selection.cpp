@@ -25,8 +25,7 @@ std::vector<std::uint8_t> ClickSelection::first_leaves(const LeafView& view, con
   std::vector<PartMeaning> all;
   const auto add = [&](std::span<const Candidate> some) {
     for (const Candidate& c : some)
-      all.push_back(
-          {static_cast<std::uint32_t>(c.chain), found.chains[c.chain].nodes[c.index], c.terms, c.cost});
+      all.push_back({static_cast<std::uint32_t>(c.chain), found.chains[c.chain].nodes[c.index], {}, c.cost});
   };
   add(found.candidates);
   selected_.meanings = std::make_shared<const std::vector<PartMeaning>>(all);

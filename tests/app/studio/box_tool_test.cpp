@@ -266,6 +266,25 @@ TEST_CASE("hands: right after a box, 2 and 3 are no tools: what else it can mean
   CHECK(studio.view().tool == ToolId(Tool::kScribble));
 }
 
+TEST_CASE("hands: another tool ends an offer that is hidden, too: 2 is a tool then and takes nothing") {
+  Hands hands = hands_on_sample(false);
+  Studio& studio = hands.studio();
+  hands.app.key('4');
+  const glm::vec2 at = hands.app.screen_of(kOnApple);
+  hands.app.drag({at - 60.0f, at, at + 60.0f});
+  REQUIRE(hands.app.settle());
+  REQUIRE(studio.clicks().offer());
+  hands.app.key('I');  // where no meaning is offered
+  hands.app.key('1');
+  REQUIRE(studio.view().tool == ToolId(Tool::kNavigate));
+  hands.app.key('I');
+  for (int i = 0; i < 2; ++i) hands.app.key('2');
+  REQUIRE(hands.app.settle());
+  CHECK(studio.view().tool == ToolId(Tool::kClick));
+  CHECK(!studio.clicks().offer());
+  CHECK(studio.document().active_object()->choice == 0);
+}
+
 TEST_CASE("hands: boxes that remove, one right after the other, all remove") {
   Hands hands = hands_on_sample(false);
   Studio& studio = hands.studio();
