@@ -222,8 +222,10 @@ std::shared_ptr<OpenedScene> open_first(std::vector<SceneSource> files,
                                         std::vector<std::filesystem::path>* added,
                                         std::vector<std::string>* refused, const Job& job) {
   const SceneSource& first = files.front();
-  if (!first.cameras.empty())  // a wrong file or name is no fault of the scenes
-    chosen_of(first, cameras_of(first, glm::dvec3(0), nullptr));
+  if (!first.cameras.empty() || !first.camera.empty()) {  // a wrong one is no fault of the scenes
+    const std::vector<Camera> cameras = cameras_of(first, glm::dvec3(0), nullptr);
+    if (!first.cameras.empty() || !cameras.empty()) chosen_of(first, cameras);
+  }
   while (true) try {
       return open_scene(files, job);
     } catch (const Error& error) {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <span>
 
 #include "segment/masks/cv_image.h"
 
@@ -21,12 +20,12 @@ std::size_t colour_bin(const cv::Vec3f& lab) {
 }
 
 // Share of each colour in the mask.
-std::array<float, kColourBins> shares_of(std::span<const std::uint16_t> colour, const Mask& mask) {
+std::array<float, kColourBins> shares_of(const Image<std::uint16_t>& colour, const Mask& mask) {
   std::array<float, kColourBins> shares{};
   float all = 0;
   for (std::size_t pixel = 0; pixel < mask.size(); ++pixel)
     if (mask.pixels()[pixel]) {
-      shares[colour[pixel]] += 1;
+      shares[colour.pixels()[pixel]] += 1;
       all += 1;
     }
   for (float& share : shares) share /= std::max(all, 1.0f);
@@ -35,26 +34,24 @@ std::array<float, kColourBins> shares_of(std::span<const std::uint16_t> colour, 
 
 }  // namespace
 
-std::vector<std::uint16_t> colour_bins(const Image<Rgb8>& picture) {
+Image<std::uint16_t> colour_bins(const Image<Rgb8>& picture) {
   const cv::Mat lab = lab_of(as_const_mat(picture));
-  std::vector<std::uint16_t> bins;
-  bins.reserve(picture.size());
+  Image<std::uint16_t> bins(picture.width(), picture.height());
   for (int y = 0; y < lab.rows; ++y)
     for (int x = 0; x < lab.cols; ++x)
-      bins.push_back(static_cast<std::uint16_t>(colour_bin(lab.at<cv::Vec3f>(y, x))));
+      bins.at(x, y) = static_cast<std::uint16_t>(colour_bin(lab.at<cv::Vec3f>(y, x)));
   return bins;
 }
 
 float overlap_of_colours(const Image<Rgb8>& picture, const Mask& mask, const BoxPx& around) {
-  const std::vector<std::uint16_t> colour = colour_bins(picture);
+  const Image<std::uint16_t> colour = colour_bins(picture);
   std::array<std::array<float, kColourBins>, 2> pixels{};
   std::array<float, 2> all{};
   for (int y = 0; y < mask.height(); ++y)
     for (int x = 0; x < mask.width(); ++x) {
       if (!around.contains(glm::vec2(x, y) + 0.5f)) continue;
       const std::size_t side = mask.at(x, y) != 0;
-      pixels[side][colour[static_cast<std::size_t>(y) * static_cast<std::size_t>(mask.width()) +
-                          static_cast<std::size_t>(x)]] += 1;
+      pixels[side][colour.at(x, y)] += 1;
       all[side] += 1;
     }
   if (all[0] == 0 || all[1] == 0) return 1;
@@ -66,7 +63,7 @@ float overlap_of_colours(const Image<Rgb8>& picture, const Mask& mask, const Box
 
 float log_ratio_of_colours(const Image<Rgb8>& picture, const Mask& region, const Mask& a, const Mask& b) {
   constexpr float kEver = 1e-3f;  // of the pixels: what a mask does not show now it may still have
-  const std::vector<std::uint16_t> colour = colour_bins(picture);
+  const Image<std::uint16_t> colour = colour_bins(picture);
   const std::array<float, kColourBins> of_region = shares_of(colour, region), of_a = shares_of(colour, a),
                                        of_b = shares_of(colour, b);
   float mean = 0;

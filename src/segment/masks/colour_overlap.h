@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include "core/image.h"
 #include "segment/masks/seeds.h"
@@ -12,8 +11,8 @@ namespace splatcut {
 
 inline constexpr std::size_t kColourBins = 512;
 
-// The bin of each pixel's colour, row by row.
-std::vector<std::uint16_t> colour_bins(const Image<Rgb8>& picture);
+// The bin of each pixel's colour.
+Image<std::uint16_t> colour_bins(const Image<Rgb8>& picture);
 
 // Of the pixels whose centres lie in `around`: 0 where no colour of the mask stands beside it, 1 where all do
 // in equal shares, and where one of the two has no pixel. The sum over bins of the lesser share.

@@ -94,8 +94,8 @@ std::span<const Mask> ClickSelection::meanings() const {
   return offers_ ? std::span<const Mask>(offers_->masks) : std::span<const Mask>();
 }
 
-// Offers the likeliest meaning, settled where the trees disagree, then the next likely ones that look clearly
-// different.
+// Offers the likeliest meaning, then the next likely ones that look clearly different. Each is settled where
+// the trees disagree.
 void ClickSelection::note_offers(const LeafView& view, const Answers& found,
                                  std::span<const PartMeaning> meanings) {
   Offers offers;
@@ -104,9 +104,13 @@ void ClickSelection::note_offers(const LeafView& view, const Answers& found,
         candidate.cost > found.candidates.front().cost + model_.offered)
       break;
     std::vector<std::uint8_t> leaves = leaves_changed(found, candidate);
-    if (offers.meant.empty()) leaves = settled_by_colour(parts_, view, meanings, leaves);
-    if (std::ranges::any_of(offers.meant, [&](const auto& other) { return look_alike(view, other, leaves); }))
-      continue;
+    const auto offered_already = [&] {
+      return std::ranges::any_of(offers.meant,
+                                 [&](const auto& other) { return look_alike(view, other, leaves); });
+    };
+    if (offered_already()) continue;
+    leaves = settled_by_colour(parts_, view, meanings, leaves, offers.meant);
+    if (offered_already()) continue;
     offers.masks.push_back(shown(view.leaves, view.camera, leaves));
     offers.meant.push_back(std::move(leaves));
   }

@@ -11,8 +11,8 @@
 // the least cost, see candidates.h. A leaf follows a correction only if, in at least nearer_majority of the
 // trees, it meets no click of the other sign below its common ancestor with this click.
 //
-// Where the trees end the likeliest part of a first click differently, colour decides (settled_by_colour.h);
-// its sizes begin with what is settled so.
+// Where the trees end what a first click means differently, colour decides (settled_by_colour.h). Other
+// meanings that are offered, and sizes, begin with what is settled so.
 //
 // A click's step takes a smaller or a larger size of what it means (part_sizes.h), of a correction of what it
 // changes.

@@ -22,7 +22,7 @@ struct Votes {
 };
 
 Votes votes_for(const PartHierarchy& parts, const LeafView& view, std::span<const PartMeaning> meanings,
-                std::span<const std::uint8_t> taken) {
+                std::span<const std::uint8_t> taken, std::span<const std::vector<std::uint8_t>> others) {
   constexpr float kAlike = 0.6f, kUnlikely = 6;  // ln 400: such a vote changes nothing
   constexpr std::size_t kMostVoters = 64;
   Votes votes{.held_by = std::vector<TreesHeld>(parts.leaves, 0),
@@ -34,7 +34,11 @@ Votes votes_for(const PartHierarchy& parts, const LeafView& view, std::span<cons
     if (voters == kMostVoters || meaning.cost > meanings.front().cost + kUnlikely) break;
     if (voted[meaning.tree]) continue;
     const std::vector<std::uint8_t> held = leaves_of(parts, meaning.tree, meaning.node);
-    if (iou(view.leaf_px, taken, held) < kAlike) continue;
+    const float alike = iou(view.leaf_px, taken, held);
+    if (alike < kAlike || std::ranges::any_of(others, [&](const auto& other) {
+          return iou(view.leaf_px, other, held) > alike;
+        }))
+      continue;
     if (voters == 0) first_cost = meaning.cost;
     const float vote = std::exp(first_cost - meaning.cost);
     const TreesHeld bit = TreesHeld{1} << voters++;
@@ -51,27 +55,16 @@ Votes votes_for(const PartHierarchy& parts, const LeafView& view, std::span<cons
   return votes;
 }
 
-// The leaf that makes most of each pixel; kNoPart where there is none.
-std::vector<std::uint32_t> leaf_of_pixels(const LeafView& view) {
-  std::vector<std::uint32_t> leaf(view.colour.size(), kNoPart);
-  for (std::size_t pixel = 0; pixel < leaf.size(); ++pixel)
-    if (const auto weights = view.leaves.at(pixel); !weights.empty()) leaf[pixel] = weights.front().group;
-  return leaf;
-}
-
 // Per colour, how much likelier it is in the object than around it: ln((p + e) / (q + e)). Around it: within
 // half of its extent on each side.
-std::array<float, kColourBins> colours_speak(const LeafView& view, std::span<const std::uint16_t> colour,
-                                             std::span<const std::uint32_t> leaf, const Votes& votes) {
+std::array<float, kColourBins> colours_speak(const Image<std::uint16_t>& colour,
+                                             const Image<std::uint32_t>& leaf, const Votes& votes) {
   constexpr float kAround = 0.5f, kEver = 1e-3f;
-  const int width = view.camera.width_px, height = view.camera.height_px;
-  const auto share = [&](std::size_t pixel) { return leaf[pixel] == kNoPart ? 0 : votes.share[leaf[pixel]]; };
-  BoxPx extent{{static_cast<float>(width), static_cast<float>(height)}, {0, 0}};
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      if (share(static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
-                static_cast<std::size_t>(x)) <= 0)
-        continue;
+  const auto share = [&](int x, int y) { return leaf.at(x, y) == kNoPart ? 0 : votes.share[leaf.at(x, y)]; };
+  BoxPx extent{{static_cast<float>(leaf.width()), static_cast<float>(leaf.height())}, {0, 0}};
+  for (int y = 0; y < leaf.height(); ++y)
+    for (int x = 0; x < leaf.width(); ++x) {
+      if (share(x, y) <= 0) continue;
       extent.low_px = glm::min(extent.low_px, glm::vec2(x, y));
       extent.high_px = glm::max(extent.high_px, glm::vec2(x + 1, y + 1));
     }
@@ -79,14 +72,12 @@ std::array<float, kColourBins> colours_speak(const LeafView& view, std::span<con
   const BoxPx around{extent.low_px - margin_px, extent.high_px + margin_px};
   std::array<std::array<float, kColourBins>, 2> pixels{};
   std::array<float, 2> all{};
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
+  for (int y = 0; y < leaf.height(); ++y)
+    for (int x = 0; x < leaf.width(); ++x) {
       if (!around.contains(glm::vec2(x, y) + 0.5f)) continue;
-      const std::size_t pixel =
-          static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
-      const float object = share(pixel);
-      pixels[0][colour[pixel]] += 1 - object;
-      pixels[1][colour[pixel]] += object;
+      const float object = share(x, y);
+      pixels[0][colour.at(x, y)] += 1 - object;
+      pixels[1][colour.at(x, y)] += object;
       all[0] += 1 - object;
       all[1] += object;
     }
@@ -101,24 +92,26 @@ std::array<float, kColourBins> colours_speak(const LeafView& view, std::span<con
 
 std::vector<std::uint8_t> settled_by_colour(const PartHierarchy& parts, const LeafView& view,
                                             std::span<const PartMeaning> meanings,
-                                            std::span<const std::uint8_t> taken) {
+                                            std::span<const std::uint8_t> taken,
+                                            std::span<const std::vector<std::uint8_t>> others) {
   constexpr float kLeastPx = 3, kLeastShare = 0.03f;
   std::vector<std::uint8_t> settled(taken.begin(), taken.end());
   if (view.colour.empty() || meanings.empty()) return settled;
-  const Votes votes = votes_for(parts, view, meanings, taken);
+  const Votes votes = votes_for(parts, view, meanings, taken, others);
   const auto undecided = [&](std::size_t leaf) { return votes.undecided(leaf); };
   if (std::ranges::none_of(std::views::iota(std::size_t{0}, settled.size()), undecided)) return settled;
-  const std::vector<std::uint16_t> colour = colour_bins(view.colour);
-  const std::vector<std::uint32_t> leaf = leaf_of_pixels(view);
-  const std::array<float, kColourBins> ratio = colours_speak(view, colour, leaf, votes);
+  const Image<std::uint16_t> colour = colour_bins(view.colour);
+  const Image<std::uint32_t> leaf = picture_of(view).leaf;
+  const std::array<float, kColourBins> ratio = colours_speak(colour, leaf, votes);
   struct Group {
     float ratio = 0, px = 0;
   };
   std::map<TreesHeld, Group> groups;
   for (std::size_t pixel = 0; pixel < leaf.size(); ++pixel) {
-    if (leaf[pixel] == kNoPart || !undecided(leaf[pixel])) continue;
-    Group& group = groups[votes.held_by[leaf[pixel]]];
-    group.ratio += ratio[colour[pixel]];
+    const std::uint32_t shown = leaf.pixels()[pixel];
+    if (shown == kNoPart || !undecided(shown)) continue;
+    Group& group = groups[votes.held_by[shown]];
+    group.ratio += ratio[colour.pixels()[pixel]];
     ++group.px;
   }
   for (std::size_t l = 0; l < settled.size(); ++l) {

@@ -6,7 +6,8 @@
 // one tree. The picture decides: whether a colour is that of the object or of what is around it.
 //
 // - Voters: of each tree the cheapest part that looks much like what is taken, IoU at least 0.6 in the view;
-//   its vote is e to the difference of the costs. Parts 400 times less likely than the likeliest do not vote.
+//   its vote is e to the difference of the costs. Parts 400 times less likely than the likeliest do not vote,
+//   nor those that look more like another meaning that is offered.
 // - A group is all leaves that the same trees hold, hidden ones among them: they are decided together, so
 //   that no crumbs come.
 // - s: the group's share of the votes. r: the mean over its pixels of ln((p + e) / (q + e)), with p and q the
@@ -28,9 +29,11 @@
 
 namespace splatcut {
 
-// Flags per leaf. meanings: parts, the cheapest first. taken: flags per leaf.
+// Flags per leaf. meanings: parts, the cheapest first. taken: flags per leaf. others: those of meanings that
+// are offered before it.
 std::vector<std::uint8_t> settled_by_colour(const PartHierarchy& parts, const LeafView& view,
                                             std::span<const PartMeaning> meanings,
-                                            std::span<const std::uint8_t> taken);
+                                            std::span<const std::uint8_t> taken,
+                                            std::span<const std::vector<std::uint8_t>> others = {});
 
 }  // namespace splatcut

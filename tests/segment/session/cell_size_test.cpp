@@ -146,7 +146,7 @@ TEST_CASE("cells: a meaning that is chosen is the one that was offered, and the 
       // Of a meaning that its cell cuts off, the outline is a part.
       const double covered = static_cast<double>(both) / static_cast<double>(count(outlined));
       ++offered;
-      other += (more ? covered : iou(shown, outlined)) < 0.8;
+      other += (more ? covered : iou(shown, outlined)) < 0.75;  // labels alike by .7 are the same meaning
       grown += more;
     }
   }
