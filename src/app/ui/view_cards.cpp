@@ -114,8 +114,8 @@ void view_cards(UiContext& ui, const ImVec2& room) {
   for (std::size_t i = 0; i < run->views.size(); ++i) {
     if (!run->views[i].picture) continue;
     const ImVec2 size = card_size(run->views[i], grid.cell);
-    const auto column = static_cast<float>(place % grid.columns),
-               row = static_cast<float>(place / grid.columns);
+    const int in_row = place % grid.columns, above = place / grid.columns;
+    const auto column = static_cast<float>(in_row), row = static_cast<float>(above);
     ImGui::SetCursorScreenPos(
         {from.x + column * (grid.cell.x + kCardGap) + std::round(0.5f * (grid.cell.x - size.x)),
          from.y + row * (grid.cell.y + kCardGap) + std::round(0.5f * (grid.cell.y - size.y))});

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <ranges>
 
 #include "segment/masks/colour_overlap.h"
 
@@ -99,7 +98,9 @@ std::vector<std::uint8_t> settled_by_colour(const PartHierarchy& parts, const Le
   if (view.colour.empty() || meanings.empty()) return settled;
   const Votes votes = votes_for(parts, view, meanings, taken, others);
   const auto undecided = [&](std::size_t leaf) { return votes.undecided(leaf); };
-  if (std::ranges::none_of(std::views::iota(std::size_t{0}, settled.size()), undecided)) return settled;
+  std::size_t in_doubt = 0;
+  for (std::size_t l = 0; l < settled.size(); ++l) in_doubt += undecided(l);
+  if (in_doubt == 0) return settled;
   const Image<std::uint16_t> colour = colour_bins(view.colour);
   const Image<std::uint32_t> leaf = picture_of(view).leaf;
   const std::array<float, kColourBins> ratio = colours_speak(colour, leaf, votes);
