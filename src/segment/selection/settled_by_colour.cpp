@@ -11,7 +11,7 @@ namespace splatcut {
 
 namespace {
 
-using TreesHeld = std::uint64_t;  // a bit for each voter: a group's name
+using TreesHeld = std::uint64_t;  // a bit for each voter, of the first 64: a group's name
 
 struct Votes {
   std::vector<TreesHeld> held_by;  // per leaf
@@ -20,37 +20,33 @@ struct Votes {
   bool undecided(std::size_t leaf) const { return held_by[leaf] != 0 && held_by[leaf] != all; }
 };
 
-Votes votes_for(const PartHierarchy& parts, const LeafView& view, std::span<const PartMeaning> meanings,
-                std::span<const std::uint8_t> taken, std::span<const std::vector<std::uint8_t>> others) {
+// The likely meanings that look like what is taken, and more like it than like any other that is offered.
+std::vector<PartMeaning> alike(const PartHierarchy& parts, const LeafView& view,
+                               std::span<const PartMeaning> meanings, std::span<const std::uint8_t> taken,
+                               std::span<const std::vector<std::uint8_t>> others) {
   constexpr float kAlike = 0.6f, kUnlikely = 6;  // ln 400: such a vote changes nothing
-  constexpr std::size_t kMostVoters = 64;
-  Votes votes{.held_by = std::vector<TreesHeld>(parts.leaves, 0),
-              .share = std::vector<float>(parts.leaves, 0)};
-  std::vector<std::uint8_t> voted(parts.trees.size(), 0);
-  std::size_t voters = 0;
-  float first_cost = 0, sum = 0;
+  std::vector<PartMeaning> found;
   for (const PartMeaning& meaning : meanings) {
-    if (voters == kMostVoters || meaning.cost > meanings.front().cost + kUnlikely) break;
-    if (voted[meaning.tree]) continue;
+    if (meaning.cost > meanings.front().cost + kUnlikely) break;
     const std::vector<std::uint8_t> held = leaves_of(parts, meaning.tree, meaning.node);
-    const float alike = iou(view.leaf_px, taken, held);
-    if (alike < kAlike || std::ranges::any_of(others, [&](const auto& other) {
-          return iou(view.leaf_px, other, held) > alike;
-        }))
-      continue;
-    if (voters == 0) first_cost = meaning.cost;
-    const float vote = std::exp(first_cost - meaning.cost);
-    const TreesHeld bit = TreesHeld{1} << voters++;
-    for (std::uint32_t l = 0; l < parts.leaves; ++l) {
-      if (!held[l]) continue;
-      votes.held_by[l] |= bit;
-      votes.share[l] += vote;
-    }
-    votes.all |= bit;
-    sum += vote;
-    voted[meaning.tree] = 1;
+    const float likeness = iou(view.leaf_px, taken, held);
+    const auto nearer = [&](const auto& other) { return iou(view.leaf_px, other, held) > likeness; };
+    if (likeness >= kAlike && std::ranges::none_of(others, nearer)) found.push_back(meaning);
   }
-  for (float& share : votes.share) share /= std::max(sum, 1e-6f);
+  return found;
+}
+
+// meanings: those that look like what is taken.
+Votes votes_of(const PartHierarchy& parts, std::span<const PartMeaning> meanings) {
+  Votes votes{.held_by = std::vector<TreesHeld>(parts.leaves, 0), .share = vote_shares(parts, meanings)};
+  if (votes.share.empty()) return votes;
+  TreesHeld bit = 1;
+  for (const PartMeaning& voter : voters(parts, meanings)) {
+    const std::vector<std::uint8_t> held = leaves_of(parts, voter.tree, voter.node);
+    for (std::uint32_t l = 0; l < parts.leaves; ++l) votes.held_by[l] |= held[l] ? bit : 0;
+    votes.all |= bit;
+    bit <<= 1;
+  }
   return votes;
 }
 
@@ -96,7 +92,7 @@ std::vector<std::uint8_t> settled_by_colour(const PartHierarchy& parts, const Le
   constexpr float kLeastPx = 3, kLeastShare = 0.03f;
   std::vector<std::uint8_t> settled(taken.begin(), taken.end());
   if (view.colour.empty() || meanings.empty()) return settled;
-  const Votes votes = votes_for(parts, view, meanings, taken, others);
+  const Votes votes = votes_of(parts, alike(parts, view, meanings, taken, others));
   const auto undecided = [&](std::size_t leaf) { return votes.undecided(leaf); };
   std::size_t in_doubt = 0;
   for (std::size_t l = 0; l < settled.size(); ++l) in_doubt += undecided(l);

@@ -13,9 +13,9 @@
 // - s: the group's share of the votes. r: the mean over its pixels of ln((p + e) / (q + e)), with p and q the
 //   share of the pixel's colour among the pixels of the object and of the rest around it, in 512 bins of CIE
 //   Lab, e 0.001. Each pixel counts by its leaf's share for the one and the other.
-// - A group is object if ln(s / (1 - s)) + r > 0: Bayes' rule, with one colour seen a group, as its pixels
-//   are alike. s is held between 0.03 and 0.97. What all voters agree on stays, and so do groups of fewer
-//   than 3 pixels.
+// - A group is object if ln(s / (1 - s)) + r > 0: Bayes' rule. A group counts as one observation, as its
+//   pixels are alike. s is held between 0.03 and 0.97. What all voters agree on stays, and so do groups of
+//   fewer than 3 pixels.
 //
 // Nothing changes where the view has no colour. Cost: some 3 ms at 320 pixels wide.
 #pragma once

@@ -10,6 +10,16 @@
 using namespace splatcut;
 using namespace splatcut::testing;
 
+namespace {
+
+void box_apple(Hands* hands) {
+  hands->app.key('4');
+  const glm::vec2 at = hands->app.screen_of(kOnApple);
+  hands->app.drag({at - 60.0f, at, at + 60.0f});
+}
+
+}  // namespace
+
 TEST_CASE("hands: a box around a second thing leaves what was clicked first") {
   Hands hands = hands_on_sample();
   const Scene& scene = *hands.studio().scene()->scene;
@@ -241,9 +251,7 @@ TEST_CASE(
 TEST_CASE("hands: right after a box, 2 and 3 are no tools: what else it can mean is still computed") {
   Hands hands = hands_on_sample(false);
   Studio& studio = hands.studio();
-  hands.app.key('4');
-  const glm::vec2 at = hands.app.screen_of(kOnApple);
-  hands.app.drag({at - 60.0f, at, at + 60.0f});
+  box_apple(&hands);
   REQUIRE(studio.cutting());
   for (const int key : {'2', '3'}) {
     hands.app.key(key);
@@ -257,8 +265,7 @@ TEST_CASE("hands: right after a box, 2 and 3 are no tools: what else it can mean
   CHECK(studio.document().active_object()->choice == 1);
 
   hands.app.key('N', {.ctrl = true});
-  hands.app.key('4');
-  hands.app.drag({at - 60.0f, at, at + 60.0f});
+  box_apple(&hands);
   REQUIRE(studio.cutting());
   hands.app.key(key::kEscape);  // nothing comes any more
   REQUIRE(hands.app.settle());
@@ -269,9 +276,7 @@ TEST_CASE("hands: right after a box, 2 and 3 are no tools: what else it can mean
 TEST_CASE("hands: another tool ends an offer that is hidden, too: 2 is a tool then and takes nothing") {
   Hands hands = hands_on_sample(false);
   Studio& studio = hands.studio();
-  hands.app.key('4');
-  const glm::vec2 at = hands.app.screen_of(kOnApple);
-  hands.app.drag({at - 60.0f, at, at + 60.0f});
+  box_apple(&hands);
   REQUIRE(hands.app.settle());
   REQUIRE(studio.clicks().offer());
   hands.app.key('I');  // where no meaning is offered
