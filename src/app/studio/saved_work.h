@@ -32,6 +32,7 @@ class SavedWork {
   // Unsaved work that crashes left is offered until the user restores it, by opening its file, or drops it:
   // that of the scene that is open first, then the newest.
   const std::vector<LeftWork>& offers() const { return offers_; }
+  std::size_t own_offers() const { return own_offers_; }  // number of those of the scene that is open
   const std::filesystem::path& own_autosave() const { return autosaves_.own(); }
 
   // Notes that the workspace has another scene and document. work, file: the work file that they come from,
@@ -43,6 +44,7 @@ class SavedWork {
  private:
   TaskThread::Work autosaving();
   Image<Rgb8> small_picture() const;  // of what the view shows; empty: nothing is drawn yet
+  WorkView seen() const;              // what the window shows
   bool differs() const;               // the document does from the saved one
   void keep_as_saved(std::uint64_t serial, const Document& document, std::uint64_t scene);
   void look_for_more(double seconds);
@@ -57,6 +59,7 @@ class SavedWork {
   // File that a crash left and that the user opened; it is removed once the work is in another file.
   std::filesystem::path restored_;
   std::vector<LeftWork> offers_;
+  std::size_t own_offers_ = 0;
   std::uint64_t next_offer_serial_ = 1;
   double looked_for_s_ = 0;
   // Serials of the documents that the autosave and the user's file hold; 0: the file holds none.
@@ -71,7 +74,7 @@ class SavedWork {
   double quiet_s_ = 0, unkept_s_ = 0, rested_s_ = 0;
   double written_in_s_ = 0;
   std::size_t saves_ = 0;
-  CameraPose autosaved_pose_;
+  WorkView autosaved_view_;
 };
 
 }  // namespace splatcut

@@ -333,3 +333,26 @@ TEST_CASE("work that was saved, changed and restored is saved to its file again"
   CHECK(read_work_file(own).content->at("objects")[0].at("name") == "red");
   CHECK_FALSE(read_work_file(own).content->contains("saved_as"));
 }
+
+TEST_CASE("work that was saved by itself shows what the window showed: the object alone") {
+  const ScratchFolder folder("state_alone");
+  {
+    HeadlessApp app(kSmallWidth, kSmallHeight, 1, with_state(folder));
+    opened(app);
+    app.click(app.screen_of(kOnApple));
+    REQUIRE(app.settle());
+    app.frames(60 * 3);
+    REQUIRE(app.settle());
+    app.key('I');
+    app.frames(60);
+    REQUIRE(app.settle());
+  }  // no leave(): as if it had crashed
+  HeadlessApp app(kSmallWidth, kSmallHeight, 1, with_state(folder));
+  opened(app);
+  REQUIRE(app.studio().view().display == DisplayMode::kWhole);
+  app.studio().apply(OpenScene{app.studio().work().offers().front().file});
+  REQUIRE(app.settle());
+  CHECK(app.studio().view().display == DisplayMode::kIsolate);
+  app.key('I');
+  CHECK(app.studio().view().display == DisplayMode::kWhole);
+}
