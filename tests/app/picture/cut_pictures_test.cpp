@@ -204,6 +204,35 @@ TEST_CASE("thumbnails: sides that no picture of the capture shows are in doubt, 
   }
 }
 
+TEST_CASE("thumbnails: none shows nothing of the object, where something hides it") {
+  Hands hands = hands_on_sample(false);
+  const OpenedScene& scene = *hands.studio().scene();
+  Session session({.cloud = scene.cloud, .blocks = scene.blocks});
+  CutRequest request;
+  request.strokes = {{scene.views().cameras[0], {click(kOnApple, SeedLabel::kObject)}, {}}};
+  const CutSettings settings;
+  const CutResult whole = session.cut(request, settings);
+  const Drawer drawer(*scene.cloud, nullptr, nullptr);
+  std::size_t hidden = 0;
+  // Patches of the apple's skin, which the apple hides from behind.
+  for (const float from : {-0.42f, -0.40f, -0.38f, -0.36f, -0.34f}) {
+    std::vector<std::uint8_t> patch = sample_truth(*scene.scene, kApple);
+    for (std::size_t g = 0; g < patch.size(); ++g) patch[g] = patch[g] && scene.cloud->position[g].z > from;
+    if (count_flags(patch) == 0) continue;
+    const CutResult result = with_labels(session, whole, patch, {});
+    const auto px_in = [&](const Camera& camera) {
+      return count(thresholded(render_labels(drawer, limited_to_width(camera, 160), patch), 0.5f));
+    };
+    const std::vector<ViewCard> cards = picture_cards(session, {request, settings, result}, {});
+    REQUIRE(!cards.empty());
+    for (const ViewCard& card : std::span(cards).subspan(1)) CHECK(px_in(card.camera) >= 24);
+    for (const GivenView& view : session.look_around(request, result, settings, 6, {}))
+      hidden += px_in(view.camera) < 24;
+    MESSAGE(from, ": ", count_flags(patch), " Gaussians, ", cards.size(), " thumbnails, ", hidden);
+  }
+  CHECK(hidden > 0);
+}
+
 TEST_CASE("thumbnails: half a thing stays in doubt when a whole one joins, until looked at or made whole") {
   Hands hands = hands_on_sample(false);
   const OpenedScene& scene = *hands.studio().scene();
