@@ -64,7 +64,7 @@ void SavedWork::keep_as_saved(std::uint64_t serial, const Document& document, st
 void SavedWork::find_offers() {
   std::vector<LeftWork> found;
   for (const std::filesystem::path& file : autosaves_.left_behind()) {
-    if (file == restored_) continue;
+    if (file == restored_ || keeping_.contains(file)) continue;
     const auto known = std::ranges::find(offers_, file, &LeftWork::file);
     LeftWork left = known == offers_.end() ? left_work(file) : *known;
     if (left.nothing) {
@@ -181,6 +181,19 @@ void SavedWork::keep_unsaved() {
     std::filesystem::remove(restored, ignored);
     if (!restored.empty()) std::filesystem::remove(picture_of_work(restored), ignored);
   });
+}
+
+void SavedWork::keep_from_other_scene() {
+  if (!ws_.scene || autosaves_.own().empty() || !unsaved()) return;
+  const std::filesystem::path file = *keeping_.insert(autosaves_.own()).first;
+  keep_unsaved();
+  ws_.writes.submit(TaskKind::kSave, [this, file](const Job&) {
+    ws_.writes.post([this, file] {
+      keeping_.erase(file);
+      find_offers();
+    });
+  });
+  autosaves_.leave_own();
 }
 
 void SavedWork::leave() {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "app/document/command.h"
@@ -25,6 +26,8 @@ class SavedWork {
   // Removes the autosave, or writes it if work is unsaved; called when the program ends.
   void leave();
   void keep_unsaved();  // writes the autosave if work is unsaved; called when a signal ends the program
+
+  void keep_from_other_scene();  // another scene comes: offers what is unsaved, as after a crash
 
   const std::filesystem::path& work_path() const { return work_path_; }  // the user's file; empty: none yet
   bool unsaved() const;
@@ -58,6 +61,7 @@ class SavedWork {
   Autosaves autosaves_;
   // File that a crash left and that the user opened; it is removed once the work is in another file.
   std::filesystem::path restored_;
+  std::set<std::filesystem::path> keeping_;  // files that are still written, see keep_from_other_scene()
   std::vector<LeftWork> offers_;
   std::size_t own_offers_ = 0;
   std::uint64_t next_offer_serial_ = 1;

@@ -416,6 +416,7 @@ void SceneFiles::take(const std::shared_ptr<const OpenedScene>& scene) {
 
 void SceneFiles::opened(const std::shared_ptr<OpenedScene>& scene, const std::optional<RestoredWork>& work,
                         const std::filesystem::path& work_path) {
+  work_.keep_from_other_scene();
   preparing_stopped_ = false;
   opening_.clear();
   before_files_.clear();

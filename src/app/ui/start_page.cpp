@@ -83,18 +83,19 @@ void left_row(UiContext& ui, const LeftWork& left, bool first) {
 // Beside a scene the panel is for its objects: work of others stands behind one row.
 void left_work_list(UiContext& ui) {
   const std::vector<LeftWork>& offers = ui.studio.work().offers();
+  const bool in_panel = ui.studio.scene() != nullptr;
+  const std::size_t own = in_panel ? ui.studio.work().own_offers() : offers.size();
   const auto list = [&](std::size_t from, std::size_t to, std::size_t most) {
-    for (std::size_t i = from; i < std::min(to, from + most); ++i) left_row(ui, offers[i], i == 0);
+    for (std::size_t i = from; i < std::min(to, from + most); ++i) left_row(ui, offers[i], i == 0 && own > 0);
     if (to > from + most)
       wrapped_muted(ui, fmt::format("and {} older, offered once these are done with", to - from - most));
   };
-  const bool in_panel = ui.studio.scene() != nullptr;
-  const std::size_t own = in_panel ? ui.studio.work().own_offers() : offers.size();
-  if (own > 0) wrapped_muted(ui, "Not saved when the program ended. Click to restore:");
+  if (own > 0) wrapped_muted(ui, "Unsaved work. Click to restore:");
   list(0, own, in_panel ? 2 : 5);
   if (own == offers.size()) return;
   const std::string row = fmt::format("Unsaved work of other scenes: {}###others", offers.size() - own);
-  if (ImGui::TreeNodeEx(row.c_str(), ImGuiTreeNodeFlags_NoTreePushOnOpen)) list(own, offers.size(), 5);
+  if (ImGui::TreeNodeEx(row.c_str(), ImGuiTreeNodeFlags_NoTreePushOnOpen | ImGuiTreeNodeFlags_FramePadding))
+    list(own, offers.size(), 5);
 }
 
 void recent_list(UiContext& ui) {
