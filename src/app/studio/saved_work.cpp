@@ -185,13 +185,17 @@ void SavedWork::keep_unsaved() {
 
 void SavedWork::keep_from_other_scene() {
   if (!ws_.scene || autosaves_.own().empty() || !unsaved()) return;
-  const std::filesystem::path file = *keeping_.insert(autosaves_.own()).first;
-  keep_unsaved();
-  ws_.writes.submit(TaskKind::kSave, [this, file](const Job&) {
-    ws_.writes.post([this, file] {
-      keeping_.erase(file);
-      find_offers();
-    });
+  ws_.writes.cancel(TaskKind::kAutosave);
+  const auto done = [this, file = autosaves_.own(), restored = restored_](bool written) {
+    if (written) autosaves_.remove(restored);  // its work is in the other
+    for (const std::filesystem::path& kept : {file, restored}) keeping_.erase(kept);
+    find_offers();
+  };
+  keeping_.insert({autosaves_.own(), restored_});
+  const TaskThread::Order order(TaskKind::kSave, [done] { done(false); });
+  ws_.writes.submit(order, [this, done, write = autosaving()](const Job& job) {
+    write(job);
+    ws_.writes.post([done] { done(true); });
   });
   autosaves_.leave_own();
 }

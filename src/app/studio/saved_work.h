@@ -61,7 +61,8 @@ class SavedWork {
   Autosaves autosaves_;
   // File that a crash left and that the user opened; it is removed once the work is in another file.
   std::filesystem::path restored_;
-  std::set<std::filesystem::path> keeping_;  // files that are still written, see keep_from_other_scene()
+  // Files of work that is still written, see keep_from_other_scene(): none of them is offered yet.
+  std::set<std::filesystem::path> keeping_;
   std::vector<LeftWork> offers_;
   std::size_t own_offers_ = 0;
   std::uint64_t next_offer_serial_ = 1;

@@ -384,6 +384,13 @@ TEST_CASE("work that was not saved is offered where another scene was opened in 
   CHECK(same(app.studio().document(), saved));
   REQUIRE(app.studio().work().offers().size() == 1);
   CHECK(app.studio().work().offers().front().scene.filename() == kSmallSample.filename());
+  // Each stays once where one is restored in place of another at once.
+  for (int i = 0; i < 3; ++i) {
+    app.studio().apply(OpenScene{app.studio().work().offers().front().file});
+    REQUIRE(app.settle());
+    REQUIRE(app.studio().work().offers().size() == 1);
+    CHECK_FALSE(app.studio().work().offers().front().scene.empty());
+  }
   // Once it is saved there is nothing to keep.
   app.studio().apply(SaveWork{folder / "work.splatcut.json"});
   REQUIRE(app.settle());
