@@ -80,9 +80,10 @@ void SavedWork::find_offers() {
 
 void SavedWork::sort_offers() {
   if (!ws_.scene) return;
-  const auto others = std::ranges::stable_partition(
-      offers_, [&](const LeftWork& left) { return same_file(left.scene, ws_.scene->scene->path); });
-  own_offers_ = offers_.size() - others.size();
+  const auto others = std::stable_partition(offers_.begin(), offers_.end(), [&](const LeftWork& left) {
+    return same_file(left.scene, ws_.scene->scene->path);
+  });
+  own_offers_ = static_cast<std::size_t>(others - offers_.begin());
 }
 
 void SavedWork::opened(const std::optional<RestoredWork>& work, const std::filesystem::path& file) {
