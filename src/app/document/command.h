@@ -168,6 +168,10 @@ struct ShowPlaced {    // F frames this file while it is placed, see Viewport::p
   std::uint32_t file;  // SceneSource::id; 0: none
   static constexpr bool at_once = true;
 };
+struct DrawLarger {
+  std::uint64_t card;  // ViewCard::serial of a thumbnail
+  static constexpr bool at_once = true;
+};
 struct ShowFloaters {
   bool shown;  // true: previews floaters; EditSelection{kRemoveFloaters} removes them
   static constexpr bool at_once = true;
@@ -418,13 +422,13 @@ struct SaveTurntable {
 
 using Command =
     std::variant<AddStroke, IntersectStroke, AddBox, SelectRegion, SelectVolume, SelectColour, PickColour,
-                 SelectFlood, SelectScene, SelectRange, ShowRange, EditSelection, ShowPlaced, ShowFloaters,
-                 StepScale, ChooseMeaning, RemoveStroke, ClearStrokes, ComeNearer, NewObject, RemoveObject,
-                 RenameObject, RecolourObject, ShowObject, LockObject, ActivateObject, MergeObjects,
-                 SplitObject, DuplicateObject, SeparateObject, LeaveToOthers, DeleteSelected, RestoreDeleted,
-                 LeaveOutView, SetSmoothness, SetPreset, SetBackground, SetUp, Undo, Redo, JumpHistory,
-                 Cancel, Recompute, SetView, GoToCamera, LookAlong, NextBackdrop, SetBackdrop, SetFieldOfView,
-                 OpenScene, AddScene, PlaceScene, BringHere, RemoveScene, SaveWork, DropAutosave, Export,
-                 KeepFill, SaveSnapshot, SaveTurntable>;
+                 SelectFlood, SelectScene, SelectRange, ShowRange, EditSelection, ShowPlaced, DrawLarger,
+                 ShowFloaters, StepScale, ChooseMeaning, RemoveStroke, ClearStrokes, ComeNearer, NewObject,
+                 RemoveObject, RenameObject, RecolourObject, ShowObject, LockObject, ActivateObject,
+                 MergeObjects, SplitObject, DuplicateObject, SeparateObject, LeaveToOthers, DeleteSelected,
+                 RestoreDeleted, LeaveOutView, SetSmoothness, SetPreset, SetBackground, SetUp, Undo, Redo,
+                 JumpHistory, Cancel, Recompute, SetView, GoToCamera, LookAlong, NextBackdrop, SetBackdrop,
+                 SetFieldOfView, OpenScene, AddScene, PlaceScene, BringHere, RemoveScene, SaveWork,
+                 DropAutosave, Export, KeepFill, SaveSnapshot, SaveTurntable>;
 
 }  // namespace splatcut

@@ -13,7 +13,8 @@ namespace splatcut {
 namespace {
 
 constexpr int kViewsToLookFrom = 6;
-constexpr int kThumbnailWidth = 160;
+constexpr int kThumbnailWidth = 160, kLargeWidth = 3 * kThumbnailWidth;
+constexpr int kFewestShownPx = 40;       // of a thumbnail's 15,000: fewer of the object are not made out
 constexpr float kSameDirection = 0.94f;  // cosine, 20 degrees: views around an object are farther apart
 constexpr const char* kThroughSurface = "here the border runs through a surface";
 constexpr double kMuchThroughSurface =
@@ -151,6 +152,11 @@ std::optional<StrokeChange> change_of(const Session& session, const CutShown& cu
   return StrokeChange(drawer, *made_in, *cut.before, now, job);
 }
 
+// Whether a thumbnail shows something of the object, or of what it was before.
+bool shows_any(const Image<Rgba8>& picture, const Mask& mask, const ChangeSeen& changed) {
+  return count(resized_mask(mask, picture.width(), picture.height())) + count(changed.left) >= kFewestShownPx;
+}
+
 void tell(const ChangeSeen& changed, ViewCard* card) {
   card->doubt = changed.doubt;
   card->doubt_of_stroke = !changed.doubt.empty();
@@ -194,7 +200,9 @@ std::vector<ViewCard> picture_cards(Session& session, const CutShown& cut, const
     const RasterOutput drawn = drawn_small(cloud, view.camera, job);
     const ChangeSeen changed = changed_in(view.camera);
     if (job.cancelled()) return cards;
-    cards.push_back(card_of(view, thumbnail(drawn, view.mask, view.used, cut.colour, changed)));
+    ViewCard card = card_of(view, thumbnail(drawn, view.mask, view.used, cut.colour, changed));
+    if (!cards.empty() && view.used && !shows_any(*card.picture, view.mask, changed)) continue;
+    cards.push_back(std::move(card));
     tell(changed, &cards.back());
     if (cards.back().doubt.empty() && view.used) doubts_border(drawn, view.mask, &cards.back());
   }
@@ -210,12 +218,27 @@ std::vector<ViewCard> picture_cards(Session& session, const CutShown& cut, const
     const Mask& mask = change ? changed.object : view.mask;
     const auto picture =
         std::make_shared<const Image<Rgba8>>(thumbnail(drawn, mask, true, cut.colour, changed));
+    if (!shows_any(*picture, mask, changed)) continue;
     cards.push_back({.camera = view.camera, .used = false, .picture = picture, .only_to_look = true});
     tell(changed, &cards.back());
     if (cards.back().doubt.empty() && !doubts_border(drawn, mask, &cards.back()))
       cards.back().doubt = doubts.of(view.camera, job);
   }
   return cards;
+}
+
+Image<Rgba8> large_picture(const Session& session, const CutShown& cut, const ViewCard& card,
+                           const Job& job) {
+  const Camera& c = card.camera;
+  const Camera camera = resized(c, kLargeWidth, std::max(1, kLargeWidth * c.height_px / c.width_px));
+  const RasterOutput drawn = rasterize(*session.scene().cloud, camera, {}, job);
+  const std::optional<StrokeChange> change = change_of(session, cut, job);
+  if (job.cancelled()) return {};
+  const ChangeSeen changed = change ? change->seen_from(camera, job) : ChangeSeen();
+  const Drawer drawer(*session.scene().cloud, nullptr, &session.blocks());
+  const Mask mask =
+      change ? changed.object : thresholded(render_labels(drawer, camera, cut.result.labels, job), 0.5f);
+  return thumbnail(drawn, mask, card.used || card.only_to_look, cut.colour, changed);
 }
 
 CutResult with_labels(const Session& session, CutResult result, const std::vector<std::uint8_t>& labels,

@@ -30,8 +30,13 @@ struct CutShown {
 // Cards with rasterised views and the mask in the object's colour. Cards of views that do not count are dark.
 // What the last stroke took away is red, what it added green. If the cut used no view around the object, a
 // few are added for the user to check, also those that the object went from with that stroke. See
-// ViewCard::doubt for what is said of them. If cancelled, cards are missing.
+// ViewCard::doubt for what is said of them. What counts but shows next to nothing of the object has no card,
+// but for the first view. If cancelled, cards are missing.
 std::vector<ViewCard> picture_cards(Session& session, const CutShown& cut, const Job& job);
+
+// The picture of a card, three times as wide. cut: as the card was drawn for, but for masks of its views. If
+// cancelled, it must not be used.
+Image<Rgba8> large_picture(const Session& session, const CutShown& cut, const ViewCard& card, const Job& job);
 
 // The result with other labels, and what its views show of these: for cards of a cutout that a hand changed.
 // If cancelled, masks are missing.

@@ -26,7 +26,8 @@ struct ViewCard {
   double confidence = 0;
   std::string reason;  // reason why the view does not count; empty: it counts
   std::shared_ptr<const Image<Rgba8>> picture;
-  bool only_to_look = false;     // true: the view had no influence on the cut
+  std::shared_ptr<const Image<Rgba8>> large{};  // the same, three times as wide; null: nobody asked for it
+  bool only_to_look = false;                    // true: the view had no influence on the cut
   std::string doubt;             // why the cutout is in doubt there, after "In doubt: "; empty: it is not
   bool doubt_of_stroke = false;  // true: it is of what the last stroke changed
   // What it is of, also since earlier strokes, strokes' and borders apart; empty: not known.

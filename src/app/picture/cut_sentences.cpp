@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
 
 #include "app/document/words.h"
 #include "segment/session/doubts.h"
@@ -51,23 +50,17 @@ std::string why_so_already(const CutRequest& request, const CutResult& result) {
 
 std::string wheel_hint(const CutRequest& request, const CutResult& result,
                        const std::vector<std::uint8_t>& before, const std::vector<std::uint8_t>& after) {
-  if (result.sizes < 2 || first_stroke(request.strokes) == last_stroke(request.strokes))
-    return unsure(result) ? ". Not all of it? Turn the wheel for another size" : "";
-  const bool largest = result.size + 1 == result.sizes;
-  if (changed_little(before, after)) return largest ? "" : ". Too little? Turn the wheel";
-  if (result.size == 0) return ". Too little? Turn the wheel";
-  return largest ? ". Too much? Turn the wheel" : ". Too much or too little? Turn the wheel";
+  const bool first = first_stroke(request.strokes) == last_stroke(request.strokes);
+  if (result.sizes < 2 || (first && (!unsure(result) || result.meanings.size() > 1))) return {};
+  const bool more = result.size + 1 < result.sizes;
+  const bool less = result.size > 0 && (first || !changed_little(before, after));
+  return std::string(more || less ? ". The wheel takes " : "") + (more ? "more" : "") +
+         (more && less ? " or " : "") + (less ? "less" : "");
 }
 
 bool add_doubt_of_sides(CutRun* run) {
-  const auto doubtful = static_cast<std::size_t>(
-      std::ranges::count_if(run->views, [](const ViewCard& card) { return !card.doubt.empty(); }));
-  if (doubtful == 0) return false;
-  constexpr const char* kSides[] = {"one side is",    "two sides are",  "three sides are",
-                                    "four sides are", "five sides are", "six sides are"};
-  const std::string sides =
-      doubtful <= std::size(kSides) ? kSides[doubtful - 1] : fmt::format("{} sides are", doubtful);
-  run->doubts.push_back(fmt::format("{} in doubt, marked in the thumbnails", sides));
+  if (std::ranges::all_of(run->views, [](const ViewCard& card) { return card.doubt.empty(); })) return false;
+  run->doubts.emplace_back("sides in doubt are marked in the thumbnails");
   return true;
 }
 

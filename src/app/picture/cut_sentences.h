@@ -24,13 +24,14 @@ bool changed_little(const std::vector<std::uint8_t>& before, const std::vector<s
 // Of a last click that asks for what is so already: that it does, and what to do for more.
 std::string why_so_already(const CutRequest& request, const CutResult& result);
 
-// What the wheel can do about a click that took the wrong size; empty: there is no other. What changed too
-// little to be seen was not too much. before, after: as above.
+// What the wheel does after a click: a hint, no doubt. Empty: there is no other size, or a first click is
+// clear, or its other meanings are offered, one question at a time. What changed too little to be seen was
+// not too much. before, after: as above.
 std::string wheel_hint(const CutRequest& request, const CutResult& result,
                        const std::vector<std::uint8_t>& before, const std::vector<std::uint8_t>& after);
 
-// Adds to the doubts how many sides, the user's own among them, are in doubt by their pictures, each of which
-// has a mark; returns false if none is.
+// Adds to the doubts that sides, perhaps the user's own, are in doubt by their pictures; returns false if
+// none is. Without their number: marks are counted in the thumbnails, where they come and go.
 bool add_doubt_of_sides(CutRun* run);
 
 // Names another object most of which the object holds, too; empty: there is none. Objects may overlap, but a

@@ -140,7 +140,7 @@ const ClickMeanings* Clicks::offer() const {
 std::string Clicks::why_no_meanings() const {
   const ObjectItem* object = ws_.document().active_object();
   if (!object || object->locked || !tool_of(ws_.view.tool).clicks_object || stroke_count(*object) != 1 ||
-      !any_mark(*object))
+      !any_mark(*object) || declined_offer_ == ws_.history.keys(*object).first_click)
     return {};
   const ClickMeanings* known = meanings(*object);
   const bool comes = cuts_.comes(*object) || (!object->cut_kept && !cuts_.run(object->id));
@@ -401,7 +401,9 @@ std::string Clicks::why_not_choose(int key) const {
 
 bool Clicks::decline_offer() {
   const bool shown = offer() != nullptr;
-  if (const ClickMeanings* declined = offered()) declined_offer_ = declined->key;
+  const ObjectItem* object = ws_.document().active_object();
+  if (object && stroke_count(*object) == 1)  // also one that is still computed
+    declined_offer_ = ws_.history.keys(*object).first_click;
   return shown;
 }
 

@@ -16,8 +16,8 @@ namespace splatcut {
 namespace {
 
 // A change is saved once nothing more has changed for a moment, or after some seconds of changes without a
-// pause. What takes long to write is written after a rest in proportion. Changes of the view alone are saved
-// later: the view changes all the time.
+// pause. What takes long to write is written after a rest in proportion. Moves of the view alone are saved
+// later: it moves all the time.
 constexpr double kAutosaveAfterSeconds = 0.3, kAutosaveAtLatestSeconds = 2, kAutosaveViewAfterSeconds = 10,
                  kAutosaveAgainSeconds = 30, kRestOverWriting = 3;
 
@@ -64,7 +64,7 @@ void SavedWork::keep_as_saved(std::uint64_t serial, const Document& document, st
 void SavedWork::find_offers() {
   std::vector<LeftWork> found;
   for (const std::filesystem::path& file : autosaves_.left_behind()) {
-    if (file == restored_) continue;
+    if (file == restored_ || keeping_.contains(file)) continue;
     const auto known = std::ranges::find(offers_, file, &LeftWork::file);
     LeftWork left = known == offers_.end() ? left_work(file) : *known;
     if (left.nothing) {
@@ -80,8 +80,10 @@ void SavedWork::find_offers() {
 
 void SavedWork::sort_offers() {
   if (!ws_.scene) return;
-  std::stable_partition(offers_.begin(), offers_.end(),
-                        [&](const LeftWork& left) { return same_file(left.scene, ws_.scene->scene->path); });
+  const auto others = std::stable_partition(offers_.begin(), offers_.end(), [&](const LeftWork& left) {
+    return same_file(left.scene, ws_.scene->scene->path);
+  });
+  own_offers_ = static_cast<std::size_t>(others - offers_.begin());
 }
 
 void SavedWork::opened(const std::optional<RestoredWork>& work, const std::filesystem::path& file) {
@@ -92,7 +94,7 @@ void SavedWork::opened(const std::optional<RestoredWork>& work, const std::files
   if (work && std::ranges::find(offers_, file, &LeftWork::file) != offers_.end()) restored_ = file;
   autosaved_serial_ = ws_.history.serial();
   keep_as_saved(autosaved_serial_, ws_.document(), ws_.scene->serial);
-  autosaved_pose_ = viewport_.camera().kept_pose();
+  autosaved_view_ = seen();
   if (work && !own) autosaved_serial_ = saved_serial_ = 0;  // restored: nowhere else yet
   written_in_s_ = 0;
   find_offers();
@@ -118,8 +120,9 @@ void SavedWork::update(double seconds) {
   const std::uint64_t serial = ws_.history.serial();
   rested_s_ += seconds;
   if (std::exchange(waiting_serial_, serial) != serial) quiet_s_ = 0;
-  const bool changed = autosaved_serial_ != serial;
-  const bool looks_elsewhere = unsaved() && autosaved_pose_ != viewport_.camera().kept_pose();
+  const bool shows_other = unsaved() && autosaved_view_.display != ws_.view.display;
+  const bool changed = autosaved_serial_ != serial || shows_other;
+  const bool looks_elsewhere = unsaved() && autosaved_view_ != seen();
   if (!changed && !looks_elsewhere) return;
   quiet_s_ += seconds;
   unkept_s_ = changed ? unkept_s_ + seconds : 0;
@@ -128,12 +131,16 @@ void SavedWork::update(double seconds) {
   if (!due || rested_s_ < kRestOverWriting * written_in_s_) return;
   quiet_s_ = unkept_s_ = rested_s_ = 0;
   autosaved_serial_ = serial;
-  autosaved_pose_ = viewport_.camera().kept_pose();
+  autosaved_view_ = seen();
   const auto failed = [this] {  // not forgotten: tried again without another change
     autosaved_serial_ = 0;
     rested_s_ = kRestOverWriting * written_in_s_ - kAutosaveAgainSeconds;
   };
   ws_.writes.submit({TaskKind::kAutosave, failed}, autosaving());
+}
+
+WorkView SavedWork::seen() const {
+  return {viewport_.camera().kept_pose(), ws_.view.display};
 }
 
 Image<Rgb8> SavedWork::small_picture() const {
@@ -143,7 +150,7 @@ Image<Rgb8> SavedWork::small_picture() const {
 
 TaskThread::Work SavedWork::autosaving() {
   return [this, path = autosaves_.own(), restored = restored_, document = ws_.document(),
-          view = autosaved_pose_, scene = ws_.scene, steps = saved_steps(ws_.history),
+          view = autosaved_view_, scene = ws_.scene, steps = saved_steps(ws_.history),
           picture = small_picture(), saved_as = work_path_](const Job&) {
     const auto start = std::chrono::steady_clock::now();
     write_work_file(path, *scene, document, view, steps, saved_as);
@@ -167,7 +174,7 @@ void SavedWork::forget_restored(const std::filesystem::path& file) {
 void SavedWork::keep_unsaved() {
   if (!ws_.scene || autosaves_.own().empty() || !unsaved()) return;
   ws_.writes.cancel(TaskKind::kAutosave);
-  autosaved_pose_ = viewport_.camera().kept_pose();
+  autosaved_view_ = seen();
   // It is waited for when the worker ends; what it posts comes too late.
   ws_.writes.submit(TaskKind::kSave, [write = autosaving(), restored = restored_](const Job& job) {
     write(job);
@@ -175,6 +182,23 @@ void SavedWork::keep_unsaved() {
     std::filesystem::remove(restored, ignored);
     if (!restored.empty()) std::filesystem::remove(picture_of_work(restored), ignored);
   });
+}
+
+void SavedWork::keep_from_other_scene() {
+  if (!ws_.scene || autosaves_.own().empty() || !unsaved()) return;
+  ws_.writes.cancel(TaskKind::kAutosave);
+  const auto done = [this, file = autosaves_.own(), restored = restored_](bool written) {
+    if (written) autosaves_.remove(restored);  // its work is in the other
+    for (const std::filesystem::path& kept : {file, restored}) keeping_.erase(kept);
+    find_offers();
+  };
+  keeping_.insert({autosaves_.own(), restored_});
+  const TaskThread::Order order(TaskKind::kSave, [done] { done(false); });
+  ws_.writes.submit(order, [this, done, write = autosaving()](const Job& job) {
+    write(job);
+    ws_.writes.post([done] { done(true); });
+  });
+  autosaves_.leave_own();
 }
 
 void SavedWork::leave() {
@@ -193,19 +217,19 @@ void SavedWork::perform(const SaveWork& c) {
   std::filesystem::path path = c.path;
   if (!is_work_file(path)) path += ".splatcut.json";
   refuse_written_inputs(path, ws_.scene->scene->files);
-  ws_.tasks.submit(TaskKind::kSave, [this, path, serial = ws_.history.serial(), document = ws_.document(),
-                                     view = viewport_.camera().kept_pose(), scene = ws_.scene,
-                                     steps = saved_steps(ws_.history)](const Job& job) {
-    job.progress("saving", 0);
-    write_work_file(path, *scene, document, view, steps);
-    ws_.tasks.post([this, path, serial, scene, document] {
-      ws_.say(Message::Kind::kDone, "Work saved to " + path.string());
-      if (scene != ws_.scene) return;
-      work_path_ = path;
-      keep_as_saved(serial, document, scene->serial);
-      ++saves_;
-    });
-  });
+  ws_.tasks.submit(TaskKind::kSave,
+                   [this, path, serial = ws_.history.serial(), document = ws_.document(), view = seen(),
+                    scene = ws_.scene, steps = saved_steps(ws_.history)](const Job& job) {
+                     job.progress("saving", 0);
+                     write_work_file(path, *scene, document, view, steps);
+                     ws_.tasks.post([this, path, serial, scene, document] {
+                       ws_.say(Message::Kind::kDone, "Work saved to " + path.string());
+                       if (scene != ws_.scene) return;
+                       work_path_ = path;
+                       keep_as_saved(serial, document, scene->serial);
+                       ++saves_;
+                     });
+                   });
 }
 
 void SavedWork::perform(const DropAutosave& c) {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "app/document/command.h"
@@ -26,12 +27,15 @@ class SavedWork {
   void leave();
   void keep_unsaved();  // writes the autosave if work is unsaved; called when a signal ends the program
 
+  void keep_from_other_scene();  // another scene comes: offers what is unsaved, as after a crash
+
   const std::filesystem::path& work_path() const { return work_path_; }  // the user's file; empty: none yet
   bool unsaved() const;
   std::size_t saves() const { return saves_; }  // files that the user had written since the program began
   // Unsaved work that crashes left is offered until the user restores it, by opening its file, or drops it:
   // that of the scene that is open first, then the newest.
   const std::vector<LeftWork>& offers() const { return offers_; }
+  std::size_t own_offers() const { return own_offers_; }  // number of those of the scene that is open
   const std::filesystem::path& own_autosave() const { return autosaves_.own(); }
 
   // Notes that the workspace has another scene and document. work, file: the work file that they come from,
@@ -43,6 +47,7 @@ class SavedWork {
  private:
   TaskThread::Work autosaving();
   Image<Rgb8> small_picture() const;  // of what the view shows; empty: nothing is drawn yet
+  WorkView seen() const;              // what the window shows
   bool differs() const;               // the document does from the saved one
   void keep_as_saved(std::uint64_t serial, const Document& document, std::uint64_t scene);
   void look_for_more(double seconds);
@@ -56,7 +61,10 @@ class SavedWork {
   Autosaves autosaves_;
   // File that a crash left and that the user opened; it is removed once the work is in another file.
   std::filesystem::path restored_;
+  // Files of work that is still written, see keep_from_other_scene(): none of them is offered yet.
+  std::set<std::filesystem::path> keeping_;
   std::vector<LeftWork> offers_;
+  std::size_t own_offers_ = 0;
   std::uint64_t next_offer_serial_ = 1;
   double looked_for_s_ = 0;
   // Serials of the documents that the autosave and the user's file hold; 0: the file holds none.
@@ -71,7 +79,7 @@ class SavedWork {
   double quiet_s_ = 0, unkept_s_ = 0, rested_s_ = 0;
   double written_in_s_ = 0;
   std::size_t saves_ = 0;
-  CameraPose autosaved_pose_;
+  WorkView autosaved_view_;
 };
 
 }  // namespace splatcut

@@ -416,6 +416,7 @@ void SceneFiles::take(const std::shared_ptr<const OpenedScene>& scene) {
 
 void SceneFiles::opened(const std::shared_ptr<OpenedScene>& scene, const std::optional<RestoredWork>& work,
                         const std::filesystem::path& work_path) {
+  work_.keep_from_other_scene();
   preparing_stopped_ = false;
   opening_.clear();
   before_files_.clear();
@@ -429,7 +430,10 @@ void SceneFiles::opened(const std::shared_ptr<OpenedScene>& scene, const std::op
   else
     ws_.history.reset(work ? work->document : start, work ? "Open work" : "Open scene");
   calls_.opened(false);
-  if (work && work->view) viewport_.camera().set_pose(*work->view);
+  if (work && work->view) {
+    viewport_.camera().set_pose(work->view->pose);
+    show(work->view->display, &ws_.view);
+  }
   work_.opened(work, work_path);
   ws_.say(Message::Kind::kDone, described(*scene) + (work ? ". Its work is restored" : ""));
   start_preparing();

@@ -102,6 +102,7 @@ class Studio {
  private:
   void perform(const ShowFloaters& c);
   void perform(const ShowRange& c);
+  void perform(const DrawLarger& c) { cuts_.draw_larger(c.card); }
   void perform(const ShowPlaced& c) { viewport_.show_placed(c.file); }
   void perform(const Cancel&);
   void perform(const Undo&);

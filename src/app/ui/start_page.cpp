@@ -53,40 +53,49 @@ void opening(UiContext& ui, float width) {
   progress_bar(ui, progress.fraction, width);
 }
 
+// The whole row restores it, the button at its end throws it away.
+void left_row(UiContext& ui, const LeftWork& left, bool first) {
+  constexpr float kThrow = 34;
+  ImGui::PushID(left.file.c_str());
+  bool restore = left_picture(ui, left);
+  ImGui::SameLine(0, 4);
+  const float width = ImGui::GetContentRegionAvail().x - kThrow - 4;
+  const ImVec2 padding = ImGui::GetStyle().FramePadding;
+  const std::string label = left_label(ui.studio.work().offers(), left, width - 2 * padding.x);
+  ImGui::PushStyleVar(ImGuiStyleVar_ButtonTextAlign, {0, 0.5f});
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding,
+                      {padding.x, 0.5f * (kLeftPicture.y - 2 * ImGui::GetFontSize())});
+  restore |=
+      button(ui, label.c_str(), left.scene.string() + "\nStrokes, objects and history, saved by themselves",
+             {}, first, width);
+  ImGui::PopStyleVar(2);
+  if (restore) ui.ask(OpenScene{left.file});  // asks where other work would be lost
+  ImGui::SameLine(0, 4);
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding,
+                      {padding.x, 0.5f * (kLeftPicture.y - ImGui::GetFontSize())});
+  if (button(ui, icon::kTrash, "Throw that work away", {}, false, kThrow)) ui.ask(DropAutosave{left.file});
+  ImGui::PopStyleVar();
+  ImGui::PopID();
+}
+
 }  // namespace
 
-// A row for each: the whole row restores it, the button at its end throws it away.
+// Beside a scene the panel is for its objects: work of others stands behind one row.
 void left_work_list(UiContext& ui) {
-  constexpr float kThrow = 34;
-  const std::size_t most_shown = ui.studio.scene() ? 2 : 5;  // beside a scene the panel is for its objects
   const std::vector<LeftWork>& offers = ui.studio.work().offers();
-  wrapped_muted(ui, "Not saved when the program ended. Click to restore:");
-  for (std::size_t i = 0; i < std::min(offers.size(), most_shown); ++i) {
-    const LeftWork& left = offers[i];
-    ImGui::PushID(left.file.c_str());
-    bool restore = left_picture(ui, left);
-    ImGui::SameLine(0, 4);
-    const float width = ImGui::GetContentRegionAvail().x - kThrow - 4;
-    const ImVec2 padding = ImGui::GetStyle().FramePadding;
-    const std::string label = left_label(offers, left, width - 2 * padding.x);
-    ImGui::PushStyleVar(ImGuiStyleVar_ButtonTextAlign, {0, 0.5f});
-    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding,
-                        {padding.x, 0.5f * (kLeftPicture.y - 2 * ImGui::GetFontSize())});
-    restore |=
-        button(ui, label.c_str(), left.scene.string() + "\nStrokes, objects and history, saved by themselves",
-               {}, i == 0, width);
-    ImGui::PopStyleVar(2);
-    if (restore) ui.ask(OpenScene{left.file});  // asks where other work would be lost
-    ImGui::SameLine(0, 4);
-    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding,
-                        {padding.x, 0.5f * (kLeftPicture.y - ImGui::GetFontSize())});
-    if (button(ui, icon::kTrash, "Throw that work away", {}, false, kThrow)) ui.ask(DropAutosave{left.file});
-    ImGui::PopStyleVar();
-    ImGui::PopID();
-  }
-  if (offers.size() > most_shown)
-    wrapped_muted(ui,
-                  fmt::format("and {} older, offered once these are done with", offers.size() - most_shown));
+  const bool in_panel = ui.studio.scene() != nullptr;
+  const std::size_t own = in_panel ? ui.studio.work().own_offers() : offers.size();
+  const auto list = [&](std::size_t from, std::size_t to, std::size_t most) {
+    for (std::size_t i = from; i < std::min(to, from + most); ++i) left_row(ui, offers[i], i == 0 && own > 0);
+    if (to > from + most)
+      wrapped_muted(ui, fmt::format("and {} older, offered once these are done with", to - from - most));
+  };
+  if (own > 0) wrapped_muted(ui, "Unsaved work. Click to restore:");
+  list(0, own, in_panel ? 2 : 5);
+  if (own == offers.size()) return;
+  const std::string row = fmt::format("Unsaved work of other scenes: {}###others", offers.size() - own);
+  if (ImGui::TreeNodeEx(row.c_str(), ImGuiTreeNodeFlags_NoTreePushOnOpen | ImGuiTreeNodeFlags_FramePadding))
+    list(own, offers.size(), 5);
 }
 
 void recent_list(UiContext& ui) {

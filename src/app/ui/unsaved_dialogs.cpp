@@ -51,9 +51,10 @@ void open_anyway_dialog(UiContext& ui) {
   const std::string name = ui.state.open_asked ? scene_name(ui.state.open_asked->path) : "";
   const UnsavedAnswer answer = unsaved_dialog(
       ui, "Open without saving?###open_anyway", ui.state.open_asked.has_value(),
-      fmt::format("The objects and strokes were not saved since they changed. That work ends once {} is "
-                  "open; if it cannot be read, the work stays.",
-                  name),
+      "The objects and strokes were not saved since they changed. " +
+          (ui.studio.work().own_autosave().empty()
+               ? fmt::format("That work ends once {} is open; if it cannot be read, the work stays.", name)
+               : std::string("A copy is kept all the same and offered in the right panel.")),
       "Open", true);
   if (answer == UnsavedAnswer::kNone) return;
   const std::optional<OpenScene> next = std::exchange(ui.state.open_asked, {});

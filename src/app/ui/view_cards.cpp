@@ -14,7 +14,7 @@ namespace splatcut {
 namespace {
 
 constexpr float kCardGap = 6;
-constexpr std::uint64_t kCardKey = 1000;  // of the cards' textures
+constexpr std::uint64_t kCardKey = 1000, kLargeKey = kCardKey - 1;  // of the cards' textures
 
 const CutRun* run_with_cards(const Studio& studio) {
   const ObjectItem* object = studio.document().active_object();
@@ -57,7 +57,17 @@ ImVec2 card_size(const ViewCard& c, const ImVec2& cell) {
   return {std::round(scale * picture.x), std::round(scale * picture.y)};
 }
 
-void card(UiContext& ui, const ObjectItem& object, const ViewCard& c, std::size_t index, const ImVec2& size) {
+// What the thumbnail shows, larger, as small ones hide small bites; sharp once it is drawn.
+TipPicture larger(UiContext& ui, const CutRun& run, const ViewCard& c) {
+  constexpr float kWidth = 300, kMostHeight = 0.4f;  // points; share of the window
+  if (!c.large && run.views_drawn) ui.ask(DrawLarger{c.serial});
+  const ImTextureID texture =
+      ui.renderer.texture(kLargeKey, 2 * c.serial + (c.large ? 1 : 0), c.large ? *c.large : *c.picture);
+  return {texture, card_size(c, {kWidth, kMostHeight * ImGui::GetIO().DisplaySize.y})};
+}
+
+void card(UiContext& ui, const CutRun& run, const ObjectItem& object, const ViewCard& c, std::size_t index,
+          const ImVec2& size) {
   const auto [width, height] = size;
   ImGui::PushID(static_cast<int>(index));
   const ImVec2 at = ImGui::GetCursorScreenPos();
@@ -65,7 +75,8 @@ void card(UiContext& ui, const ObjectItem& object, const ViewCard& c, std::size_
   ImGui::SetItemAllowOverlap();
   const bool hovered = ImGui::IsItemHovered();
   ui.state.items.push_back({fmt::format("side {}", index), {at.x, at.y}, {at.x + width, at.y + height}});
-  tooltip(tip_of_card(c, index, ui.state.steady), ui.state.message);
+  tooltip(tip_of_card(c, index, ui.state.steady), ui.state.message,
+          hovered ? larger(ui, run, c) : TipPicture());
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const ImVec2 end = {at.x + width, at.y + height};
   list.AddImageRounded(ui.renderer.texture(kCardKey + index, c.serial, *c.picture), at, end, {0, 0}, {1, 1},
@@ -119,7 +130,7 @@ void view_cards(UiContext& ui, const ImVec2& room) {
     ImGui::SetCursorScreenPos(
         {from.x + column * (grid.cell.x + kCardGap) + std::round(0.5f * (grid.cell.x - size.x)),
          from.y + row * (grid.cell.y + kCardGap) + std::round(0.5f * (grid.cell.y - size.y))});
-    card(ui, *ui.studio.document().active_object(), run->views[i], i, size);
+    card(ui, *run, *ui.studio.document().active_object(), run->views[i], i, size);
     ++place;
   }
 }

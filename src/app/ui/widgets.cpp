@@ -105,13 +105,16 @@ ImVec2 tooltip_place(const ImVec2& size, const UiRect& message) {
 
 }  // namespace
 
-void tooltip(const std::string& text, const UiRect& message) {
+void tooltip(const std::string& text, const UiRect& message, const TipPicture& picture) {
   if (text.empty() || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
   constexpr float kWidest = 320;
   const ImVec2 padding = ImGui::GetStyle().WindowPadding,
                words = ImGui::CalcTextSize(text.c_str(), nullptr, false, kWidest - padding.x);
-  ImGui::SetNextWindowPos(tooltip_place({words.x + 2 * padding.x, words.y + 2 * padding.y}, message));
+  const float above = picture.size.y > 0 ? picture.size.y + ImGui::GetStyle().ItemSpacing.y : 0;
+  ImGui::SetNextWindowPos(tooltip_place(
+      {std::max(words.x, picture.size.x) + 2 * padding.x, words.y + above + 2 * padding.y}, message));
   ImGui::BeginTooltip();
+  if (above > 0) ImGui::Image(picture.texture, picture.size);
   ImGui::PushTextWrapPos(kWidest);
   ImGui::TextUnformatted(text.c_str());
   ImGui::PopTextWrapPos();

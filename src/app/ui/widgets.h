@@ -67,8 +67,12 @@ void same_line_if_fits(const char* label, float spacing);  // for a button with 
 
 void progress_bar(UiContext& ui, double fraction, float width);  // thin, in the middle of a line
 
-// Of the last item. message: it stays above that.
-void tooltip(const std::string& text, const UiRect& message = {});
+struct TipPicture {
+  ImTextureID texture = {};
+  ImVec2 size{0, 0};  // points; 0: none
+};
+// Of the last item. message: it stays above that. picture: it stands over the text.
+void tooltip(const std::string& text, const UiRect& message = {}, const TipPicture& picture = {});
 // At the pointer, inside of a part of the screen.
 void tooltip_within(const UiRect& area, const std::string& text);
 void muted_text(UiContext& ui, const std::string& text);

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <fstream>
 #include <sstream>
+#include <utility>
 
 #include "app/work/work_picture.h"
 
@@ -101,6 +102,14 @@ std::vector<std::filesystem::path> Autosaves::left_behind() const {
   std::vector<std::filesystem::path> files;
   for (const Held& held : left_) files.insert(files.begin(), held.file);
   return files;
+}
+
+void Autosaves::leave_own() {
+  constexpr std::size_t kMostLeft = 20;
+  if (own_.lock < 0 || left_.size() >= kMostLeft) return;
+  own_.written = std::filesystem::file_time_type::clock::now();
+  left_.push_back(std::exchange(own_, {}));
+  hold_own(folder_);
 }
 
 void Autosaves::remove(const std::filesystem::path& file) {

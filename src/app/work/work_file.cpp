@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "app/work/work_document.h"
@@ -24,6 +25,15 @@ using nlohmann::json;
 // until then objects had a "part_step", that of their first stroke. Else all of version 7 means the same in
 // version 9.
 constexpr int kOldest = 7, kVersion = 9;
+
+constexpr const char* kDisplayNames[] = {"scene", "object", "rest", "side by side", "before and after"};
+
+// The scene where it is no such name: older work holds none.
+DisplayMode display_of_name(const std::string& name) {
+  const auto found = std::ranges::find(kDisplayNames, name);
+  return found == std::end(kDisplayNames) ? DisplayMode::kWhole
+                                          : static_cast<DisplayMode>(found - std::begin(kDisplayNames));
+}
 
 constexpr std::size_t kMostRows = std::size_t{1} << 28;  // of a file that is missing
 
@@ -189,7 +199,8 @@ RestoredWork restored(const WorkFile& file, const OpenedScene& opened) {
                       unknown_preset, out.document.preset),
           &out);
     if (gone.empty()) out.saved_as = work.value("saved_as", "");
-    if (work.contains("view")) out.view = pose_from(work.at("view"));
+    if (work.contains("view"))
+      out.view = {pose_from(work.at("view")), display_of_name(work.value("display", ""))};
     if (!gone.empty())
       add_warning(
           "the work is shown without what is missing, and no earlier step can be undone. The saved "
@@ -206,7 +217,7 @@ RestoredWork restored(const WorkFile& file, const OpenedScene& opened) {
 }
 
 void write_work_file(const std::filesystem::path& path, const OpenedScene& opened, const Document& document,
-                     const std::optional<CameraPose>& view, const SavedSteps& history,
+                     const std::optional<WorkView>& view, const SavedSteps& history,
                      const std::filesystem::path& saved_as) {
   const Scene& scene = *opened.scene;
   const std::span<const SceneSource> files = opened.files;
@@ -214,7 +225,10 @@ void write_work_file(const std::filesystem::path& path, const OpenedScene& opene
   work["splatcut_work"] = kVersion;
   work["scene"] = source_json(files.front(), path);
   for (const SceneSource& file : files.subspan(1)) work["added"].push_back(source_json(file, path));
-  if (view) work["view"] = pose_json(*view);
+  if (view) {
+    work["view"] = pose_json(view->pose);
+    work["display"] = kDisplayNames[static_cast<std::size_t>(view->display)];
+  }
   if (is_utf8(saved_as.string()) && !saved_as.empty())
     work["saved_as"] = std::filesystem::absolute(saved_as).string();
   if (history.steps.size() > 1) work["history"] = history_json(history, scene);

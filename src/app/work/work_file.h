@@ -4,10 +4,11 @@
 // The file holds path, hash, number of rows, cameras that were asked for and place of each file of the scene;
 // a path is relative if the file lies beside or below the work file. It holds the document: strokes with
 // their cameras in full float precision, hand marks and labels as run lengths over the rows of the scene, and
-// settings. It also holds the user's camera, and the steps that can be undone and redone, see work_history.h.
-// The labels of an object are a function of scene, strokes, settings and marks, so that `splatcut cut --work`
-// computes the same bits again. Labels that are older than the scene's present files (ObjectItem::cut_kept)
-// are kept as they are. Errors: Error names the file and the entry.
+// settings. It also holds the user's camera, whether the object is shown alone, and the steps that can be
+// undone and redone, see work_history.h. The labels of an object are a function of scene, strokes, settings
+// and marks, so that `splatcut cut --work` computes the same bits again. Labels that are older than the
+// scene's present files (ObjectItem::cut_kept) are kept as they are. Errors: Error names the file and the
+// entry.
 #pragma once
 
 #include <filesystem>
@@ -21,6 +22,7 @@
 #include "app/document/document.h"
 #include "app/document/history.h"
 #include "app/document/opened_scene.h"
+#include "app/document/view_state.h"
 
 namespace splatcut {
 
@@ -32,9 +34,16 @@ struct WorkFile {
   bool holds_nothing() const;  // the scene as it was opened, and no step that could be redone
 };
 
+// Where the user's camera stands, and what is shown.
+struct WorkView {
+  CameraPose pose;
+  DisplayMode display = DisplayMode::kWhole;
+  bool operator==(const WorkView&) const = default;
+};
+
 struct RestoredWork {
   Document document;
-  std::optional<CameraPose> view;  // pose of the user's camera; none: the file holds none
+  std::optional<WorkView> view;    // none: the file holds none
   std::string warning;             // what could not be read, or is not known; empty: nothing
   SavedSteps history;              // steps around the document; none: the file holds none
   std::filesystem::path saved_as;  // of an autosave: the user's own file, where there was one
@@ -53,7 +62,7 @@ WorkFile read_work_file(const std::filesystem::path& path);
 RestoredWork restored(const WorkFile& file, const OpenedScene& scene);
 
 void write_work_file(const std::filesystem::path& path, const OpenedScene& scene, const Document& document,
-                     const std::optional<CameraPose>& view = {}, const SavedSteps& history = {},
+                     const std::optional<WorkView>& view = {}, const SavedSteps& history = {},
                      const std::filesystem::path& saved_as = {});
 
 }  // namespace splatcut

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <unordered_map>
 #include <utility>
 
@@ -44,24 +45,31 @@ Document next_to(const Document& now, const Document& document) {
   });
 }
 
+std::set<const void*> arrays_of(const Document& document) {
+  std::set<const void*> arrays;
+  const auto add = [&](const Flags& flags) {
+    if (flags) arrays.insert(flags.get());
+  };
+  add(document.deleted);
+  for (const ObjectItem& o : document.objects) {
+    for (const Flags& flags : {o.cut, o.hand, o.of_others, o.among}) add(flags);
+    for (const StrokedView& view : o.views) add(view.seen);
+  }
+  return arrays;
+}
+
 // Each array once, by number; whether there is room is said before it is needed.
 class ArrayTable {
  public:
   explicit ArrayTable(const Scene& scene) : scene_(scene) {}
 
   bool has_room_for(const Document& document) const {
-    std::size_t added = 0;
-    const auto count = [&](const Flags& flags) { added += flags && !numbers_.contains(flags.get()); };
-    count(document.deleted);
-    for (const ObjectItem& o : document.objects) {
-      count(o.cut);
-      count(o.hand);
-      count(o.of_others);
-      count(o.among);
-      for (const StrokedView& view : o.views) count(view.seen);
-    }
-    return length_ < kMostNumbers &&
-           (numbers_.size() + added) * std::max<std::size_t>(scene_.file_rows, 1) <= kMostArrayBytes;
+    const auto added = std::ranges::count_if(arrays_of(document),
+                                             [&](const void* array) { return !numbers_.contains(array); });
+    return length_ < kMostNumbers && fit(numbers_.size() + static_cast<std::size_t>(added));
+  }
+  bool fit(std::size_t arrays) const {
+    return arrays * std::max<std::size_t>(scene_.file_rows, 1) <= kMostArrayBytes;
   }
   json number_of(const Flags& flags) {
     if (!flags) return nullptr;
@@ -116,21 +124,31 @@ SavedSteps saved_steps(const History& history) {
 json history_json(const SavedSteps& history, const Scene& scene) {
   ArrayTable arrays(scene);
   ObjectTable objects;
-  const auto kept = [&](std::size_t i) {
-    const Document& document = history.steps[i].document;
-    const bool next = i + 1 == history.cursor || i == history.cursor + 1;
-    Document out = next ? next_to(history.steps[history.cursor].document, document) : without_cuts(document);
-    return next && !arrays.has_room_for(out) ? without_cuts(document) : out;
-  };
+  std::vector<Document> kept;
+  std::set<const void*> expected;
+  for (const SavedSteps::Step& step : history.steps) {
+    kept.push_back(without_cuts(step.document));
+    expected.merge(arrays_of(kept.back()));
+  }
+  // What can be computed again has what room all steps together leave.
+  for (const std::size_t next : {history.cursor + 1, history.cursor - 1}) {
+    if (next >= kept.size()) continue;  // also before the first
+    Document with_labels = next_to(history.steps[history.cursor].document, history.steps[next].document);
+    std::set<const void*> with = arrays_of(with_labels);
+    with.insert(expected.begin(), expected.end());
+    if (!arrays.fit(with.size())) continue;
+    kept[next] = std::move(with_labels);
+    expected = std::move(with);
+  }
   const auto step_json = [&](std::size_t i) {
     const SavedSteps::Step& step = history.steps[i];
-    json out = document_json(kept(i), [&](const Flags& flags) { return arrays.number_of(flags); });
+    json out = document_json(kept[i], [&](const Flags& flags) { return arrays.number_of(flags); });
     for (json& object : out["objects"]) object = objects.number_of(std::move(object));
     out["title"] = step.title;
     if (step.other_files) out["other_files"] = true;
     return out;
   };
-  const auto fits = [&](std::size_t i) { return arrays.has_room_for(kept(i)); };
+  const auto fits = [&](std::size_t i) { return arrays.has_room_for(kept[i]); };
   std::vector<json> back, on;  // from the cursor
   for (std::size_t i = history.cursor + 1; i-- > 0 && fits(i);) back.push_back(step_json(i));
   if (back.empty()) return nullptr;

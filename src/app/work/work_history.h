@@ -2,8 +2,8 @@
 //
 // {"cursor": n, "arrays": [runs, ...], "objects": [...], "steps": [document with its title, ...]}: arrays and
 // objects that several steps share stand in the file once, and steps name them by number. Labels that a cut
-// can compute again are left out, but for the step before the cursor and the one after it. A step that
-// changed the files of the scene has "other_files": true.
+// can compute again are left out, but for the step before the cursor and the one after it where all steps
+// leave room for them. A step that changed the files of the scene has "other_files": true.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

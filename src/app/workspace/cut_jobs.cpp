@@ -356,12 +356,13 @@ void CutJobs::finish(const Order& order, CutRun run, const Flags& labels) {
   const std::string box =
       *before == *labels_now() ? "" : added_by_box(ws_.history, order.object, ws_.context());
   const std::string shared = box + shared_with(ws_.document(), order.object, labels_of_item);
-  const std::string hint = so_already && changed_little(*before, *labels_now()) ? ". But " + already
-                           : ws_.tools.scale_armed()
-                               ? wheel_hint(order.request, *result, *before, *labels_now())
-                               : "";
-  ws_.say(doubt.empty() ? Message::Kind::kDone : Message::Kind::kInfo,
-          fmt::format("{}: {}{}{}", name, changed, shared, doubt.empty() ? hint : ". But " + doubt));
+  const std::string but = !doubt.empty()                                         ? doubt
+                          : so_already && changed_little(*before, *labels_now()) ? already
+                                                                                 : "";
+  const std::string hint =
+      ws_.tools.scale_armed() ? wheel_hint(order.request, *result, *before, *labels_now()) : "";
+  ws_.say(but.empty() ? Message::Kind::kDone : Message::Kind::kInfo,
+          fmt::format("{}: {}{}{}", name, changed, shared, but.empty() ? hint : ". But " + but));
 }
 
 // The first doubt that was not said after the cut before. What is doubted of a click is said each time.

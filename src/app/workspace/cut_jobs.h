@@ -44,6 +44,8 @@ class CutJobs {
   // nothing else to do. What was asked for last is kept until the document asks for it, which then waits for
   // no cut. Called once a frame at most.
   void cut_ahead(std::span<const int> size_steps);
+  // Draws the active object's thumbnail of that number larger, if the worker has nothing else to do.
+  void draw_larger(std::uint64_t card_serial);
   void looked_from(const Camera& camera);  // the person has: sides that it shows are looked at
   // The cut of that key is of a click that asks for what is so already: said if it changes nothing.
   void note_so_already(std::string key) { so_already_ = std::move(key); }

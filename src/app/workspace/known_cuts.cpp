@@ -114,6 +114,33 @@ void CutJobs::renew_views() {
       });
 }
 
+void CutJobs::draw_larger(std::uint64_t card_serial) {
+  const ObjectItem* object = ws_.document().active_object();
+  CutRun* run = object ? known_run(object->id, object->cut_key) : nullptr;
+  if (!run || !run->result || !run->views_drawn || !ws_.tasks.idle()) return;
+  const auto card = std::ranges::find(run->views, card_serial, &ViewCard::serial);
+  if (card == run->views.end() || card->large) return;
+  Order order = order_for(*object);
+  order.key = run->key;
+  order.before = run->views_before;
+  const auto show = [this, scene = ws_.scene, id = object->id, key = run->key,
+                     card_serial](const std::shared_ptr<const Image<Rgba8>>& picture) {
+    CutRun* shown = scene == ws_.scene ? known_run(id, key) : nullptr;
+    if (!shown) return;
+    const auto place = std::ranges::find(shown->views, card_serial, &ViewCard::serial);
+    if (place != shown->views.end()) place->large = picture;
+  };
+  const auto failed = [show, small = card->picture] { show(small); };  // not tried again
+  ws_.tasks.submit({TaskKind::kLarger, failed}, [this, show, order, card = *card, result = run->result,
+                                                 labels = run->views_labels](const Job& job) {
+    CutResult shown = *result;
+    if (labels) shown.labels = *labels;
+    const auto picture = std::make_shared<const Image<Rgba8>>(large_picture(
+        *order.session, {order.request, order.settings, shown, order.colour, order.before}, card, job));
+    if (!job.cancelled()) ws_.tasks.post([show, picture] { show(picture); });
+  });
+}
+
 void CutJobs::looked_from(const Camera& camera) {
   const ObjectItem* object = ws_.document().active_object();
   CutRun* run = object ? known_run(object->id, object->cut_key) : nullptr;

@@ -50,7 +50,7 @@ void run_in_background(const std::function<void()>& work) {
 
 bool asked_for(TaskKind kind) {
   return kind != TaskKind::kHover && kind != TaskKind::kReady && kind != TaskKind::kAhead &&
-         kind != TaskKind::kStyle && kind != TaskKind::kSides;
+         kind != TaskKind::kStyle && kind != TaskKind::kLarger && kind != TaskKind::kSides;
 }
 
 TaskThread::TaskThread(std::function<void()> wake, bool inline_work)
@@ -81,7 +81,8 @@ void TaskThread::submit(Order order, Work work) {
     const std::lock_guard lock(mutex_);
     if (kind != TaskKind::kExport && kind != TaskKind::kSave && kind != TaskKind::kSelect) stop(kind);
     if (asked_for(kind))
-      for (const TaskKind by_itself : {TaskKind::kReady, TaskKind::kAhead}) stop(by_itself);
+      for (const TaskKind by_itself : {TaskKind::kReady, TaskKind::kAhead, TaskKind::kLarger})
+        stop(by_itself);
     waiting_.push_back(std::move(task));
   }
   changed_.notify_one();

@@ -3,10 +3,11 @@
 //
 // The latest request wins: a new task drops the waiting task of its kind and stops the running one. Exports,
 // saves and selections are the exception: they all run, one after the other, because each is a file or a step
-// of the history that the user asked for. Any task that was asked for stops what only prepares a click or
-// cuts ahead. Tasks run at a lower priority than what draws the window, and preparing runs at a lower one
-// still, so that pictures come first even if there are few cores. Cancelling is a normal end. Shutdown: saves
-// that wait are done, other tasks are stopped or dropped, and the thread is joined.
+// of the history that the user asked for. Any task that was asked for stops what only prepares a click,
+// cuts ahead or draws a thumbnail larger. Tasks run at a lower priority than what draws the window, and
+// preparing runs at a lower one still, so that pictures come first even if there are few cores. Cancelling is
+// a normal end. Shutdown: saves that wait are done, other tasks are stopped or dropped, and the thread is
+// joined.
 #pragma once
 
 #include <condition_variable>
@@ -30,9 +31,10 @@ enum class TaskKind {
   kSelect,
   kStyle,
   kHover,
-  kReady,  // prepares a click that may come
-  kAhead,  // cuts at a size that may be asked for
-  kSides,  // looks for sides from which less hides an object
+  kReady,   // prepares a click that may come
+  kAhead,   // cuts at a size that may be asked for
+  kLarger,  // draws a thumbnail larger
+  kSides,   // looks for sides from which less hides an object
   kExport,
   kSave,
   kAutosave

@@ -66,6 +66,21 @@ TEST_CASE("clicks: where two meanings are offered, key 3 takes no tool, and key 
   CHECK_FALSE(clicks.offer());
 }
 
+TEST_CASE("clicks: another tool chosen while the click is computed ends the offer that comes, too") {
+  Artist artist(on_sample("books", kOnBook));
+  artist.app.click(artist.screen_of(kOnBook));
+  REQUIRE(artist.studio().cutting());
+  artist.app.key('4');
+  artist.app.key('3');
+  CHECK(artist.studio().view().tool == Tool::kScribble);
+  REQUIRE(artist.studio().cutting());
+  artist.app.key('2');
+  CHECK(artist.studio().view().tool == Tool::kClick);
+  REQUIRE(artist.app.settle());
+  CHECK(artist.object().choice == 0);
+  CHECK_FALSE(artist.studio().clicks().offer());
+}
+
 TEST_CASE("clicks: Esc that leaves the object alone keeps the meaning that it has") {
   Artist artist(on_sample("books", kOnBook));
   artist.click_on_it();

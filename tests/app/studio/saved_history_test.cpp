@@ -366,3 +366,43 @@ TEST_CASE("saved work: the labels before and after the present step are kept, an
   for (const nlohmann::json& object : written["history"]["objects"]) cuts += !object["cut"].is_null();
   CHECK(cuts == 0);
 }
+
+TEST_CASE("saved work: labels kept for the next undo take no room from steps made by hand") {
+  const auto rows_with_room_for = [](std::size_t arrays) { return (std::size_t{64} << 20) / arrays; };
+  Scene scene;
+  scene.cloud.resize(4, 0);
+  scene.cloud.file_row = {0, 1, 2, 3};
+  unsigned number = 0;
+  const auto flags = [&] {  // no two alike
+    ++number;
+    return make_flags(
+        {number & 1 ? std::uint8_t{1} : std::uint8_t{0}, number & 2 ? std::uint8_t{1} : std::uint8_t{0},
+         number & 4 ? std::uint8_t{1} : std::uint8_t{0}, number & 8 ? std::uint8_t{1} : std::uint8_t{0}});
+  };
+  constexpr std::size_t kHands = 6;
+  History history;
+  Document document;
+  add_object(&document, "mug").hand = flags();
+  history.push("Hand", document);
+  for (std::size_t i = 1; i < kHands; ++i) {
+    document.objects.front().hand = flags();
+    history.push("Hand", document);
+  }
+  const auto cut_in = [&](const char* title) {
+    ObjectItem& object = document.objects.front();
+    object.views = {{{}, {click({static_cast<float>(history.cursor()), 1}, SeedLabel::kObject)}, {}}};
+    object.cut_key = cut_key(document, object);
+    object.cut = flags();
+    history.push(title, document);
+  };
+  for (const char* title : {"Click", "Click again", "Click once more"}) cut_in(title);
+  history.undo();
+  REQUIRE(history.entries().size() == kHands + 4);
+  for (const std::size_t spare : {0, 1, 2}) {
+    CAPTURE(spare);
+    scene.file_rows = rows_with_room_for(kHands + spare);
+    const nlohmann::json written = history_json(saved_steps(history), scene);
+    CHECK(written["steps"].size() == history.entries().size());
+    CHECK(written["arrays"].size() == kHands + spare);
+  }
+}

@@ -69,8 +69,8 @@ TEST_CASE("work is saved by itself and offered after a crash") {
   CHECK(std::ranges::any_of(app.studio().messages(), [](const Message& m) {
     return m.kind == Message::Kind::kDone && m.text.find("restored") != m.text.npos;
   }));
-  CHECK(app.studio().work().offers().empty());
-  CHECK(app.studio().unsaved());  // it is nowhere else yet
+  CHECK(app.studio().work().offers().size() == 1);  // the orange, which it took the place of
+  CHECK(app.studio().unsaved());                    // it is nowhere else yet
   app.frames(60 * 3);
   REQUIRE(app.settle());
   app.studio().leave();
@@ -332,4 +332,69 @@ TEST_CASE("work that was saved, changed and restored is saved to its file again"
   CHECK_FALSE(app.studio().unsaved());
   CHECK(read_work_file(own).content->at("objects")[0].at("name") == "red");
   CHECK_FALSE(read_work_file(own).content->contains("saved_as"));
+}
+
+TEST_CASE("work that was saved by itself shows what the window showed: the object alone") {
+  const ScratchFolder folder("state_alone");
+  {
+    HeadlessApp app(kSmallWidth, kSmallHeight, 1, with_state(folder));
+    opened(app);
+    app.click(app.screen_of(kOnApple));
+    REQUIRE(app.settle());
+    app.frames(60 * 3);
+    REQUIRE(app.settle());
+    app.key('I');
+    app.frames(60);
+    REQUIRE(app.settle());
+  }  // no leave(): as if it had crashed
+  HeadlessApp app(kSmallWidth, kSmallHeight, 1, with_state(folder));
+  opened(app);
+  REQUIRE(app.studio().view().display == DisplayMode::kWhole);
+  app.studio().apply(OpenScene{app.studio().work().offers().front().file});
+  REQUIRE(app.settle());
+  CHECK(app.studio().view().display == DisplayMode::kIsolate);
+  app.key('I');
+  CHECK(app.studio().view().display == DisplayMode::kWhole);
+}
+
+TEST_CASE("work that was not saved is offered where another scene was opened in its place") {
+  const ScratchFolder folder("state_other");
+  HeadlessApp app(kSmallWidth, kSmallHeight, 1, with_state(folder));
+  opened(app);
+  app.click(app.screen_of(kOnApple));
+  REQUIRE(app.settle());
+  const Document saved = app.studio().document();
+  const auto open_anyway = [&](const std::filesystem::path& scene) {
+    app.open(scene);
+    app.frames(3);
+    app.press_item("###open_anyway", {"Open"});
+    REQUIRE(app.settle());
+    app.frames(60);
+    REQUIRE(app.settle());
+  };
+  open_anyway(kSmallSample);
+  CHECK_FALSE(app.studio().unsaved());
+  REQUIRE(app.studio().work().offers().size() == 1);
+  const std::filesystem::path left = app.studio().work().offers().front().file;
+  CHECK(left != app.studio().work().own_autosave());
+  // It goes on from there, and the work in its place is kept in turn.
+  app.click(app.screen_of(kOnOrange));
+  REQUIRE(app.settle());
+  open_anyway(left);
+  CHECK(same(app.studio().document(), saved));
+  REQUIRE(app.studio().work().offers().size() == 1);
+  CHECK(app.studio().work().offers().front().scene.filename() == kSmallSample.filename());
+  // Each stays once where one is restored in place of another at once.
+  for (int i = 0; i < 3; ++i) {
+    app.studio().apply(OpenScene{app.studio().work().offers().front().file});
+    REQUIRE(app.settle());
+    REQUIRE(app.studio().work().offers().size() == 1);
+    CHECK_FALSE(app.studio().work().offers().front().scene.empty());
+  }
+  // Once it is saved there is nothing to keep.
+  app.studio().apply(SaveWork{folder / "work.splatcut.json"});
+  REQUIRE(app.settle());
+  app.open(kSample);
+  REQUIRE(app.settle());
+  CHECK(app.studio().work().offers().size() == 1);
 }

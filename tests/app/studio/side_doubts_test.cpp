@@ -52,7 +52,7 @@ TEST_CASE("sides: a right click that takes far sides is told of, and the picture
     CHECK(cards(hands.app).front().doubt != kTookFarSide);
     CHECK(tip_of_card(cards(hands.app).front(), 0, true).find("\nRed left") != std::string::npos);
     CHECK(std::ranges::count(cards(hands.app), kTookFarSide, &ViewCard::doubt) == of_stroke(hands.app));
-    CHECK(hands.said().find("sides are in doubt, marked in the thumbnails") != std::string::npos);
+    CHECK(hands.said().find("sides in doubt are marked in the thumbnails") != std::string::npos);
   }
   // The next answer ends the doubt, before its own pictures are there.
   Studio& studio = hands.studio();
@@ -114,7 +114,7 @@ TEST_CASE("sides: in whatever steps the wheel came to a size, the pictures show 
   for (const bool again : {false, true}) {  // in the same words
     CAPTURE(again);
     CHECK(std::ranges::count(cards(hands.app), kTookFarSide, &ViewCard::doubt) > 0);
-    CHECK(hands.said().find("sides are in doubt, marked in the thumbnails") != std::string::npos);
+    CHECK(hands.said().find("sides in doubt are marked in the thumbnails") != std::string::npos);
     if (again) break;
     hands.studio().apply(Undo{});
     REQUIRE(hands.app.settle());

@@ -132,7 +132,7 @@ TEST_CASE("left work: a pointer that lies in the panel, under its rows, hides no
   app.frames(2);
   app.move({690, 480});
   app.move({690, 500});
-  app.open(kSmallSample);
+  app.open(folder / "fox/point_cloud/iteration_30000/point_cloud.compressed.ply");
   REQUIRE(app.settle());
   app.frames(2);
   REQUIRE(app.button("\nfox").size().x > 0);
@@ -156,4 +156,20 @@ TEST_CASE(
   std::ranges::sort(offered);
   CHECK(offered ==
         std::vector<std::filesystem::path>{"autosave.2.splatcut.json", "autosave.3.splatcut.json"});
+}
+
+TEST_CASE("left work: beside a scene that of other scenes stands behind one row") {
+  const ScratchFolder folder("left_others");
+  leave_work(folder, "fox", "autosave.splatcut.json");
+  for (int i = 2; i < 5; ++i)
+    leave_work(folder, fmt::format("cup{}", i), fmt::format("autosave.{}.splatcut.json", i));
+  HeadlessApp app(800, 600, 1, with_state(folder));
+  app.open(folder / "fox/point_cloud/iteration_30000/point_cloud.compressed.ply");
+  REQUIRE(app.settle());
+  app.frames(2);
+  const auto shown = [&](const char* capture) { return app.button(capture).size().x > 0; };
+  CHECK(shown("\nfox"));
+  CHECK_FALSE(shown("\ncup"));
+  app.press_item("/scroll", {"###others"});
+  for (const char* capture : {"\nfox", "\ncup2", "\ncup3", "\ncup4"}) CHECK(shown(capture));
 }

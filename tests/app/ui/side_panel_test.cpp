@@ -105,6 +105,38 @@ TEST_CASE("ui: what is said of a thumbnail does not cover a message, in a narrow
   CHECK(low > 0);
 }
 
+TEST_CASE("ui: a thumbnail under the pointer is shown larger beside the panel, and sharp once it is drawn") {
+  HeadlessApp app(1360, 860);
+  app.interface_state().hint_wanted = false;
+  REQUIRE(cut_out_apple(app));
+  app.wait_for_message_to_go();
+  const auto view = [&]() -> const ViewCard& {
+    return app.studio().cuts().run(app.studio().document().active)->views.at(1);
+  };
+  CHECK_FALSE(view().large);  // nobody looks
+  const UiRect card = app.button("side 1");
+  app.move(0.5f * (card.min + card.max));
+  app.frames(2);
+  const UiRect tip = app.window("##Tooltip_00");
+  CHECK(tip.size().x >= 2.5f * card.size().x);
+  CHECK(tip.size().y >= 2.5f * card.size().y);
+  CHECK(tip.max.x <= app->interface().viewport().max.x);
+  REQUIRE(app.frames_until([&] { return view().large != nullptr; }));
+  const Image<Rgba8>&large = *view().large, &small = *view().picture;
+  CHECK(large.width() == 3 * small.width());
+  const auto mean = [](const Image<Rgba8>& picture) {
+    glm::dvec3 sum(0);
+    for (const Rgba8& c : picture.pixels()) sum += glm::dvec3(c[0], c[1], c[2]);
+    return sum / static_cast<double>(picture.size());
+  };
+  CHECK(glm::length(mean(large) - mean(small)) < 3);
+  app.frames(2);
+  CHECK(app.window("##Tooltip_00").size() == tip.size());
+  app.move({500, 400});
+  app.frames(3);
+  CHECK(app.window("##Tooltip_00").size() == glm::vec2(0));
+}
+
 TEST_CASE("ui: no row of the right panel moves as doubts, progress and times come and go") {
   for (const bool small : {false, true}) {
     CAPTURE(small);

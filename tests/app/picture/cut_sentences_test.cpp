@@ -1,0 +1,38 @@
+// What is said of a finished cut.
+#include "app/picture/cut_sentences.h"
+
+#include <doctest/doctest.h>
+
+#include "segment/masks/seeds.h"
+
+using namespace splatcut;
+
+TEST_CASE("sentences: after a click the hint says what the wheel does, and puts no good answer in doubt") {
+  CutRequest first, second;
+  first.strokes = {{{}, {click({5, 5}, SeedLabel::kObject)}, {}}};
+  second.strokes = {{{}, {click({5, 5}, SeedLabel::kObject), click({9, 9}, SeedLabel::kObject)}, {}}};
+  const std::vector<std::uint8_t> before(100, 0), after(100, 1);
+  CutResult result;
+  const auto hint = [&](const CutRequest& request, std::size_t size, std::size_t sizes) {
+    result.size = size;
+    result.sizes = sizes;
+    return wheel_hint(request, result, before, after);
+  };
+  const auto hint_of_little = [&](std::size_t size) {
+    result.size = size;
+    return wheel_hint(second, result, after, after);
+  };
+  CHECK(hint(first, 1, 3).empty());  // nothing in doubt
+  CHECK(hint(second, 1, 3) == ". The wheel takes more or less");
+  CHECK(hint(second, 0, 3) == ". The wheel takes more");
+  CHECK(hint(second, 2, 3) == ". The wheel takes less");
+  CHECK(hint(second, 0, 1).empty());
+  result.sizes = 3;
+  CHECK(hint_of_little(1) == ". The wheel takes more");
+  CHECK(hint_of_little(2).empty());
+  result.certainty = 0.5;
+  CHECK(hint(first, 1, 3) == ". The wheel takes more or less");
+  CHECK(hint(first, 0, 1).empty());
+  result.meanings.resize(3);  // the bar offers them
+  CHECK(hint(first, 1, 3).empty());
+}
