@@ -33,7 +33,7 @@ struct KeptNeighbourhood {
   KeptNeighbourhood(Neighbourhood made, const SessionScene& scene)
       : near(std::move(made)), session({near.cloud, near.prepared, scene.up_world, scene.photographs}) {}
 
-  std::size_t bytes() const { return near.bytes() + session.view_bytes(); }
+  std::size_t bytes() const { return near.bytes() + session.stroke_bytes(); }
 
   Neighbourhood near;
   LocalSession session;

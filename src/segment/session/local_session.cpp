@@ -17,6 +17,7 @@ namespace splatcut {
 namespace {
 
 constexpr std::size_t kMostKept = 3;  // cuts from a reference: each takes about 20 bytes a Gaussian
+constexpr std::size_t kMostAnswers = 32;
 
 // Times the views used: a correction must win against all that missed it.
 constexpr int kCorrectionWeight = 4;
@@ -68,6 +69,32 @@ CutSettings with_given_masks(CutSettings settings, std::size_t others) {
   settings.cut.energy.lambda *= share;
   if (settings.smoothness) *settings.smoothness *= share;
   return settings;
+}
+
+bool by_strokes_and_parts(const CutRequest& request, const CutSettings& settings) {
+  return settings.first_mask_from == FirstMaskFrom::kParts && !settings.parts_only && !request.first_mask &&
+         request.masks.empty() && !request.mask_source;
+}
+
+struct LastStroke {
+  CutRequest before;  // the request without it
+  bool object;
+};
+
+// The stroke that is applied last; none: it is the first.
+std::optional<LastStroke> last_correction(const CutRequest& request) {
+  const Stroke* first = first_stroke(request.strokes);
+  for (std::size_t v = request.strokes.size(); v-- > 0;)
+    for (std::size_t s = request.strokes[v].strokes.size(); s-- > 0;) {
+      const Stroke& stroke = request.strokes[v].strokes[s];
+      if (&stroke == first) continue;
+      LastStroke last{request, stroke.label == SeedLabel::kObject};
+      std::vector<StrokedView>& views = last.before.strokes;
+      views[v].strokes.erase(views[v].strokes.begin() + static_cast<std::ptrdiff_t>(s));
+      if (views[v].strokes.empty()) views.erase(views.begin() + static_cast<std::ptrdiff_t>(v));
+      return last;
+    }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -241,8 +268,8 @@ void LocalSession::correct(const Asked& asked, const Job& job, Kept* first, CutR
   obey_strokes(result);
 }
 
-CutResult LocalSession::cut(const CutRequest& request, const CutSettings& settings, const Job& job,
-                            const OnSnapshot& on_snapshot) {
+CutResult LocalSession::solved(const CutRequest& request, const CutSettings& settings, const Job& job,
+                               const OnSnapshot& on_snapshot) {
   const Asked asked = this->asked(request, settings);
   if (!asked.reference) {
     CutResult nothing;
@@ -260,6 +287,41 @@ CutResult LocalSession::cut(const CutRequest& request, const CutSettings& settin
   if (without == 0 && asked.corrections().empty() && !asked.smoother()) return result;
   correct(asked, job, &first, &result);
   if (job.cancelled()) result.outcome = Outcome::kCancelled;
+  return result;
+}
+
+void LocalSession::keep_answer(const CutRequest& request, const CutSettings& settings,
+                               const std::vector<std::uint8_t>& labels) {
+  answers_.push_front({key_of(request), settings, labels});
+  if (answers_.size() > kMostAnswers) answers_.pop_back();
+}
+
+// Of an answer that is kept, or else computed; empty: nothing was found, or it was cancelled.
+std::vector<std::uint8_t> LocalSession::labels_of(const CutRequest& request, const CutSettings& settings,
+                                                  const Job& job) {
+  const std::string key = key_of(request);
+  const auto known =
+      std::ranges::find_if(answers_, [&](const Answer& a) { return a.key == key && a.settings == settings; });
+  if (known == answers_.end()) {
+    CutResult result = cut(request, settings, job);
+    return result.outcome == Outcome::kDone ? std::move(result.labels) : std::vector<std::uint8_t>();
+  }
+  answers_.splice(answers_.begin(), answers_, known);
+  return known->labels;
+}
+
+CutResult LocalSession::cut(const CutRequest& request, const CutSettings& settings, const Job& job,
+                            const OnSnapshot& on_snapshot) {
+  if (!by_strokes_and_parts(request, settings)) return solved(request, settings, job, on_snapshot);
+  const std::optional<LastStroke> last = last_correction(request);
+  const std::vector<std::uint8_t> before =
+      last ? labels_of(last->before, settings, job) : std::vector<std::uint8_t>();
+  CutResult result = solved(request, settings, job, on_snapshot);
+  if (result.outcome != Outcome::kDone) return result;
+  for (std::size_t g = 0; g < before.size(); ++g)
+    if ((result.labels[g] != 0) != last->object) result.labels[g] = before[g];
+  obey_strokes(&result);
+  keep_answer(request, settings, result.labels);
   return result;
 }
 

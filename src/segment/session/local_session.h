@@ -10,8 +10,13 @@
 // selection (selection/stroke_replay.h): step 2 then holds views left out and smoothness alone.
 // Where a request gives masks of several views, n in all, neither parts nor trimming have a say, and v0 and
 // the weights of neighbours are those of the settings times min(1, 3/n), but for the paper's presets. Step 1
-// is kept: what changes only step 2 costs only step 2. The result is a function of scene, request and
-// settings alone, kept steps or not, whatever was cut before, on any number of threads. One call at a time.
+// is kept: what changes only step 2 costs only step 2.
+// Step 3, where strokes alone say what is meant, by parts: a correction changes Gaussians to its own side
+// only. A Gaussian that the last stroke on the object would take from it, or one on the rest would add, keeps
+// the label that it has without this stroke. So the answer to n strokes builds on that to n - 1, which is
+// kept or computed first.
+// The result is a function of scene, request and settings alone, kept steps or not, whatever was cut before,
+// on any number of threads. One call at a time.
 #pragma once
 
 #include <list>
@@ -72,8 +77,8 @@ class LocalSession {
     if (!job.cancelled()) ready.make_ready();
   }
 
-  // Of the views of strokes that are kept, which grow with the pictures.
-  std::size_t view_bytes() const { return strokes_.view_bytes(); }
+  // Of what is kept of strokes: their views, which grow with the pictures, and answers.
+  std::size_t stroke_bytes() const { return strokes_.view_bytes() + answers_.size() * scene_.cloud->size(); }
 
  private:
   struct Kept {  // a cut from the reference
@@ -82,6 +87,11 @@ class LocalSession {
     CutResult result;
     std::string sums_key;  // masks that `sums` was added up from
     std::optional<MaskedSums> sums;
+  };
+  struct Answer {
+    std::string key;
+    CutSettings settings;
+    std::vector<std::uint8_t> labels;
   };
   struct Asked;
 
@@ -94,14 +104,20 @@ class LocalSession {
   bool add_up_views(const CutResult& result, const CutSettings& settings, const Job& job, Kept* first);
   Likelihood evidence(const Asked& asked, const Job& job, Kept* first, CutResult* result);
   void correct(const Asked& asked, const Job& job, Kept* first, CutResult* result);
+  CutResult solved(const CutRequest& request, const CutSettings& settings, const Job& job,
+                   const OnSnapshot& on_snapshot);
+  std::vector<std::uint8_t> labels_of(const CutRequest& request, const CutSettings& settings, const Job& job);
+  void keep_answer(const CutRequest& request, const CutSettings& settings,
+                   const std::vector<std::uint8_t>& labels);
 
   LocalScene scene_;
   std::optional<FlowGraph> graph_;
   std::optional<CutSolver> solver_;
   KeptViews views_;
   StrokeReplay strokes_;
-  std::list<Kept> kept_;  // most recent first
-  Kept cancelled_;        // what came of the last cut that was not finished
+  std::list<Kept> kept_;       // most recent first
+  std::list<Answer> answers_;  // most recent first
+  Kept cancelled_;             // what came of the last cut that was not finished
 };
 
 }  // namespace splatcut

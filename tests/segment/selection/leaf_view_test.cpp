@@ -3,6 +3,8 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+
 #include "core/counter_rng.h"
 #include "four_leaves.h"
 #include "segment/masks/mask_tools.h"
