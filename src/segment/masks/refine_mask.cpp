@@ -178,6 +178,26 @@ Grid grid_of(const cv::Mat& lab, const Image<float>& depth, const cv::Mat& trima
   return grid;
 }
 
+// unary: of a pixel of the rectangle, natural logarithms, > 0 for the object.
+template <class Unary>
+void settle(const Grid& grid, const Unary& unary, MaxFlow* flow, cv::Mat* labels) {
+  for (std::uint32_t n = 0; n < grid.pixel.size(); ++n)
+    flow->set_terminal(n,
+                       static_cast<std::int64_t>(std::lround(kScale * unary(grid.pixel[n]))) + grid.pull[n]);
+  flow->solve();
+  for (std::uint32_t n = 0; n < grid.pixel.size(); ++n)
+    labels->at<std::uint8_t>(grid.pixel[n]) = flow->source_side(n) ? kMaybeObject : kMaybeRest;
+}
+
+// labels: of the rectangle; outside of it is the rest. Of the prior's size.
+Mask mask_of(const cv::Mat& labels, const PixelRect& rect, const Mask& prior) {
+  Mask out(prior.width(), prior.height());
+  for (int y = rect.y0; y < rect.y1; ++y)
+    for (int x = rect.x0; x < rect.x1; ++x)
+      out.at(x, y) = is_object(labels.at<std::uint8_t>(y - rect.y0, x - rect.x0)) ? kMaskObject : 0;
+  return out;
+}
+
 cv::Mat pixel_cut(const Image<Rgb8>& picture, const Image<float>& depth, const Mask& prior,
                   const cv::Mat& trimap, const PixelRect& rect, const RefineOptions& options) {
   const cv::Mat lab = lab_of(as_const_mat(picture)(as_rect(rect)));
@@ -187,14 +207,10 @@ cv::Mat pixel_cut(const Image<Rgb8>& picture, const Image<float>& depth, const M
   MaxFlow flow(grid.graph, grid.capacity);
   for (int i = 0; i < options.iterations; ++i) {
     const ColourModel model(lab, labels);
-    for (std::uint32_t n = 0; n < grid.pixel.size(); ++n) {
-      const cv::Point p = grid.pixel[n];
-      const float unary = model.log_ratio(p.x, p.y) + options.prior_weight * side.at<float>(p);
-      flow.set_terminal(n, static_cast<std::int64_t>(std::lround(kScale * unary)) + grid.pull[n]);
-    }
-    flow.solve();
-    for (std::uint32_t n = 0; n < grid.pixel.size(); ++n)
-      labels.at<std::uint8_t>(grid.pixel[n]) = flow.source_side(n) ? kMaybeObject : kMaybeRest;
+    settle(
+        grid,
+        [&](cv::Point p) { return model.log_ratio(p.x, p.y) + options.prior_weight * side.at<float>(p); },
+        &flow, &labels);
   }
   return labels;
 }
@@ -216,11 +232,29 @@ Mask refine_mask(const Image<Rgb8>& picture, const Image<float>& depth, const Ma
   const cv::Mat labels = options.solver == MaskSolver::kGrabCut
                              ? grab_cut(picture, sides, rect, options.iterations)
                              : pixel_cut(picture, depth, prior, sides, rect, options);
-  Mask out(prior.width(), prior.height());
-  for (int y = rect.y0; y < rect.y1; ++y)
-    for (int x = rect.x0; x < rect.x1; ++x)
-      out.at(x, y) = is_object(labels.at<std::uint8_t>(y - rect.y0, x - rect.x0)) ? kMaskObject : 0;
-  return out;
+  return mask_of(labels, rect, prior);
+}
+
+Mask cut_by_odds(const Image<Rgb8>& picture, const Image<float>& depth, const Mask& prior,
+                 const Image<float>& log_odds, const RefineOptions& options) {
+  const PixelRect object = bounds(prior);
+  if (object.empty()) return prior;
+  const PixelRect rect = grown(object, options.band_px + 1, prior.width(), prior.height());
+  const cv::Mat side = side_of_prior(prior, rect, options.band_px);
+  cv::Mat labels(side.size(), CV_8UC1);
+  for (int y = 0; y < labels.rows; ++y)
+    for (int x = 0; x < labels.cols; ++x) {
+      const float s = side.at<float>(y, x);
+      labels.at<std::uint8_t>(y, x) = s >= 1    ? kSureObject
+                                      : s <= -1 ? kSureRest
+                                      : s > 0   ? kMaybeObject
+                                                : kMaybeRest;
+    }
+  const Grid grid = grid_of(lab_of(as_const_mat(picture)(as_rect(rect))), depth, labels, rect, options);
+  MaxFlow flow(grid.graph, grid.capacity);
+  settle(
+      grid, [&](cv::Point p) { return log_odds.at(rect.x0 + p.x, rect.y0 + p.y); }, &flow, &labels);
+  return mask_of(labels, rect, prior);
 }
 
 }  // namespace splatcut

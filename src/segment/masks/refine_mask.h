@@ -35,4 +35,10 @@ struct RefineOptions {
 Mask refine_mask(const Image<Rgb8>& picture, const Image<float>& depth, const Mask& prior,
                  const RefineOptions& options, const Image<std::uint8_t>& seeds = {});
 
+// The pixel cut with a unary that is known: log_odds, of object against rest, natural logarithms, of the
+// prior's size. Pixels band_px or further from the prior's border keep their side. Of the options it takes
+// band_px, lambda and depth_weight. Empty prior: it comes back.
+Mask cut_by_odds(const Image<Rgb8>& picture, const Image<float>& depth, const Mask& prior,
+                 const Image<float>& log_odds, const RefineOptions& options);
+
 }  // namespace splatcut

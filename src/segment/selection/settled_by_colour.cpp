@@ -6,6 +6,7 @@
 #include <map>
 
 #include "segment/masks/colour_overlap.h"
+#include "segment/masks/refine_mask.h"
 
 namespace splatcut {
 
@@ -19,6 +20,10 @@ struct Votes {
   TreesHeld all = 0;               // of all voters
   bool undecided(std::size_t leaf) const { return held_by[leaf] != 0 && held_by[leaf] != all; }
 };
+
+float log_odds(float share) {
+  return std::log(share / (1 - share));
+}
 
 // The likely meanings that look like what is taken, and more like it than like any other that is offered.
 std::vector<PartMeaning> alike(const PartHierarchy& parts, const LeafView& view,
@@ -83,41 +88,74 @@ std::array<float, kColourBins> colours_speak(const Image<std::uint16_t>& colour,
   return ratio;
 }
 
+// Decides the groups of leaves that some voters hold and others do not. leaf: that each pixel shows.
+void settle_groups(const Votes& votes, const Image<std::uint32_t>& leaf, const Image<float>& colour_odds,
+                   std::vector<std::uint8_t>* settled) {
+  constexpr float kLeastPx = 3, kLeastShare = 0.03f;
+  struct Group {
+    float odds = 0, px = 0;
+  };
+  std::map<TreesHeld, Group> groups;
+  for (std::size_t pixel = 0; pixel < leaf.size(); ++pixel) {
+    const std::uint32_t shown = leaf.pixels()[pixel];
+    if (shown == kNoPart || !votes.undecided(shown)) continue;
+    Group& group = groups[votes.held_by[shown]];
+    group.odds += colour_odds.pixels()[pixel];
+    ++group.px;
+  }
+  for (std::size_t l = 0; l < settled->size(); ++l) {
+    if (!votes.undecided(l)) continue;
+    const Group& group = groups[votes.held_by[l]];
+    if (group.px < kLeastPx) continue;  // nothing of it is seen
+    const float share = std::clamp(votes.share[l], kLeastShare, 1 - kLeastShare);
+    (*settled)[l] = log_odds(share) + group.odds / group.px > 0;
+  }
+}
+
+// Moves the border of the settled leaves to where the picture has an edge.
+void settle_border(const LeafView& view, const Votes& votes, const Image<std::uint32_t>& leaf,
+                   const Image<float>& colour_odds, std::vector<std::uint8_t>* settled) {
+  constexpr float kLeastPx = 3, kLeastShare = 0.1f, kMostOdds = 3;
+  const RefineOptions edges{.band_px = 24, .lambda = 12};
+  Mask prior(leaf.width(), leaf.height());
+  Image<float> odds(leaf.width(), leaf.height(), -kMostOdds);
+  for (std::size_t pixel = 0; pixel < leaf.size(); ++pixel) {
+    const std::uint32_t shown = leaf.pixels()[pixel];
+    if (shown == kNoPart) continue;
+    if ((*settled)[shown]) prior.pixels()[pixel] = kMaskObject;
+    const float share = votes.undecided(shown) ? (*settled)[shown] : votes.share[shown];
+    odds.pixels()[pixel] = log_odds(std::clamp(share, kLeastShare, 1 - kLeastShare)) +
+                           std::clamp(colour_odds.pixels()[pixel], -kMostOdds, kMostOdds);
+  }
+  const Mask object = cut_by_odds(view.colour, view.depth, prior, odds, edges);
+  std::vector<float> inside(settled->size(), 0), all(settled->size(), 0);
+  for (std::size_t pixel = 0; pixel < leaf.size(); ++pixel) {
+    const std::uint32_t shown = leaf.pixels()[pixel];
+    if (shown == kNoPart) continue;
+    inside[shown] += object.pixels()[pixel] != 0;
+    all[shown] += 1;
+  }
+  for (std::size_t l = 0; l < settled->size(); ++l)
+    if (all[l] >= kLeastPx && 2 * inside[l] != all[l]) (*settled)[l] = 2 * inside[l] > all[l];
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> settled_by_colour(const PartHierarchy& parts, const LeafView& view,
                                             std::span<const PartMeaning> meanings,
                                             std::span<const std::uint8_t> taken,
                                             std::span<const std::vector<std::uint8_t>> others) {
-  constexpr float kLeastPx = 3, kLeastShare = 0.03f;
   std::vector<std::uint8_t> settled(taken.begin(), taken.end());
   if (view.colour.empty() || meanings.empty()) return settled;
   const Votes votes = votes_of(parts, alike(parts, view, meanings, taken, others));
-  const auto undecided = [&](std::size_t leaf) { return votes.undecided(leaf); };
-  std::size_t in_doubt = 0;
-  for (std::size_t l = 0; l < settled.size(); ++l) in_doubt += undecided(l);
-  if (in_doubt == 0) return settled;
+  if (votes.share.empty()) return settled;
   const Image<std::uint16_t> colour = colour_bins(view.colour);
   const Image<std::uint32_t> leaf = picture_of(view).leaf;
   const std::array<float, kColourBins> ratio = colours_speak(colour, leaf, votes);
-  struct Group {
-    float ratio = 0, px = 0;
-  };
-  std::map<TreesHeld, Group> groups;
-  for (std::size_t pixel = 0; pixel < leaf.size(); ++pixel) {
-    const std::uint32_t shown = leaf.pixels()[pixel];
-    if (shown == kNoPart || !undecided(shown)) continue;
-    Group& group = groups[votes.held_by[shown]];
-    group.ratio += ratio[colour.pixels()[pixel]];
-    ++group.px;
-  }
-  for (std::size_t l = 0; l < settled.size(); ++l) {
-    if (!undecided(l)) continue;
-    const Group& group = groups[votes.held_by[l]];
-    if (group.px < kLeastPx) continue;  // nothing of it is seen
-    const float share = std::clamp(votes.share[l], kLeastShare, 1 - kLeastShare);
-    settled[l] = std::log(share / (1 - share)) + group.ratio / group.px > 0;
-  }
+  Image<float> colour_odds(leaf.width(), leaf.height());
+  std::ranges::transform(colour.pixels(), colour_odds.pixels().begin(), [&](auto bin) { return ratio[bin]; });
+  settle_groups(votes, leaf, colour_odds, &settled);
+  settle_border(view, votes, leaf, colour_odds, &settled);
   return settled;
 }
 

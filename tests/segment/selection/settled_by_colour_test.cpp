@@ -22,12 +22,16 @@ PartHierarchy disagreeing_trees() {
   return parts;
 }
 
-// The third stripe has that colour. What stands behind the last stripe is no leaf, unless leaf 3 does.
+// The third stripe has that colour. What stands behind the last stripe is no leaf, unless leaf 3 does. Depth
+// jumps at the third stripe, so that a border there costs nothing.
 LeafView coloured(const PartHierarchy& parts, const Rgb8& third, bool last_shows = false) {
   LeafView view = stripes(parts, {0, 1, 2, last_shows ? 3 : -1});
   view.colour = Image<Rgb8>(40, 10);
   for (int y = 0; y < 10; ++y)
-    for (int x = 0; x < 40; ++x) view.colour.at(x, y) = x < 20 ? kRed : x < 30 ? third : kLeafGreen;
+    for (int x = 0; x < 40; ++x) {
+      view.colour.at(x, y) = x < 20 ? kRed : x < 30 ? third : kLeafGreen;
+      view.depth.at(x, y) = x < 20 ? 1 : x < 30 ? 4 : 16;
+    }
   return view;
 }
 
@@ -55,6 +59,21 @@ TEST_CASE("settled by colour: what looks like the rest leaves the object") {
   const Labels pair{1, 1, 0, 0}, all{1, 1, 1, 1};
   CHECK(settled_by_colour(parts, coloured(parts, kLeafGreen), all_first, all) == pair);
   CHECK(settled_by_colour(parts, coloured(parts, kRed), all_first, all) == all);
+}
+
+TEST_CASE("settled by colour: the border goes to where the picture has an edge") {
+  // Both trees hold the pair. 100 pixels of the third stripe are rest by ln 9, their colour says nothing:
+  // 220. A border at it crosses 10 rows and 18 diagonals without an edge: 12 (10 + 18 / sqrt 2) = 273. Beyond
+  // it there is one, of colour, where a border costs next to nothing.
+  const PartHierarchy parts = disagreeing_trees();
+  const std::vector<PartMeaning> agreed = {{0, kPair, {}, 1}, {1, kPair, {}, 1}};
+  const Labels pair{1, 1, 0, 0};
+  LeafView view = coloured(parts, kRed);
+  CHECK(settled_by_colour(parts, view, agreed, pair) == pair);
+  for (float& depth : view.depth.pixels()) depth = 1;
+  CHECK(settled_by_colour(parts, view, agreed, pair) == Labels{1, 1, 1, 0});
+  view.colour = coloured(parts, kLeafGreen).colour;
+  CHECK(settled_by_colour(parts, view, agreed, pair) == pair);
 }
 
 TEST_CASE("settled by colour: other meanings are no doubts, and nothing is settled without colour") {
