@@ -106,7 +106,8 @@ Image<Rgba8> shaded(const Frame& frame, const FrameStyle& style) {
       if (style.owner && (style.tint || style.outline)) {
         const Around a = around(owners, x, y);
         const glm::vec3 hue = unit(style.owner_colour[a.owner]);
-        if (style.tint && !style.heat) c = glm::mix(c, shaded_tint(hue, c), kTintStrength * a.inside);
+        if (style.tint && !style.heat)
+          c = glm::mix(c, shaded_tint(hue, c), kTintStrength * glm::smoothstep(0.25f, 0.75f, a.inside));
         if (style.outline && !a.uniform)
           c = glm::mix(c, glm::mix(hue, glm::vec3(1), 0.35f), kOutlineStrength * border(a.inside));
       }
