@@ -145,7 +145,10 @@ WorkView SavedWork::seen() const {
 
 Image<Rgb8> SavedWork::small_picture() const {
   const FrameResult* shown = viewport_.picture();
-  return shown && !shown->pictures.empty() ? work_picture(shown->pictures.front()) : Image<Rgb8>();
+  if (!shown || shown->scene != ws_.scene->serial || shown->frames.empty()) return {};
+  FrameStyle style = viewport_.style(0);
+  style.highlight = nullptr;  // of the pointer: no work
+  return work_picture(shaded(*shown->frames.front(), style));
 }
 
 TaskThread::Work SavedWork::autosaving() {
