@@ -256,6 +256,8 @@ TEST_CASE("exports: the dialog says what is written, and of what is moved that i
   ExportChoice choice;
   CHECK(kept_text(choice, plan) == "Kept: places and colours.");
   CHECK(moved_text(choice.placement).empty());
+  CHECK(kept_text(choice, plan, "The hole is filled.") ==
+        "Kept, but for what is said below: places and colours.");
   choice.placement.scale = 2;
   CHECK(kept_text(choice, plan) == "Written: places and colours.");
   CHECK(moved_text(choice.placement) == "It stands as chosen above, not as in the scene.");
