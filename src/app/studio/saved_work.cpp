@@ -145,10 +145,13 @@ WorkView SavedWork::seen() const {
 
 Image<Rgb8> SavedWork::small_picture() const {
   const FrameResult* shown = viewport_.picture();
-  if (!shown || shown->scene != ws_.scene->serial || shown->frames.empty()) return {};
+  if (!shown || shown->scene != ws_.scene->serial || shown->frames.empty() || shown->owners.empty())
+    return {};
   FrameStyle style = viewport_.style(0);
   style.highlight = nullptr;  // of the pointer: no work
-  return work_picture(shaded(*shown->frames.front(), style));
+  if (style.owner && style.owner->size() != ws_.gaussians()) style.owner = nullptr;  // of the files before
+  if (style.heat && style.heat->size() != ws_.gaussians()) style.heat = nullptr;
+  return work_picture(shaded(*shown->frames.front(), style, shown->owners.front().get()));
 }
 
 TaskThread::Work SavedWork::autosaving() {
