@@ -100,7 +100,18 @@ bool pointer_aims(bool aimed) {
 }
 
 void line(const glm::vec2& a, const glm::vec2& b, const Palette& palette) {
-  ImGui::GetForegroundDrawList()->AddLine({a.x, a.y}, {b.x, b.y}, packed(palette.line, 0.8f));
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.PushClipRectFullScreen();
+  list.AddLine({a.x, a.y}, {b.x, b.y}, packed(palette.line, 0.8f));
+  list.PopClipRect();
+}
+
+void borders(const glm::vec2& size, const Palette& palette) {
+  const float side = size.x - side_width(size), bottom = size.y - kStatusHeight;
+  line({0, kTopHeight}, {size.x, kTopHeight}, palette);
+  line({kToolsWidth, kTopHeight}, {kToolsWidth, bottom}, palette);
+  line({side, kTopHeight}, {side, bottom}, palette);
+  line({0, bottom}, {size.x, bottom}, palette);
 }
 
 }  // namespace
@@ -172,8 +183,10 @@ void Interface::build(const Studio& studio, double seconds, UiRenderer* renderer
   const glm::vec2 size = size_points_;
   const UiRect view = viewport();
   state_.items = {{"picture", view.min, view.max}};
-  fixed_panel("picture", view, p, kFixed | ImGuiWindowFlags_NoScrollWithMouse, {0, 0},
-              [&] { covered_ = viewport_pane(ui, view, gpu_picture); });
+  fixed_panel("picture", view, p, kFixed | ImGuiWindowFlags_NoScrollWithMouse, {0, 0}, [&] {
+    covered_ = viewport_pane(ui, view, gpu_picture);
+    if (!dialog_open()) borders(size, p);  // over all panels, under tooltips
+  });
   fixed_panel("bar", {{0, 0}, {size.x, kTopHeight}}, p, kFixed | ImGuiWindowFlags_NoScrollWithMouse, {9, 9},
               [&] { top_bar(ui); });
   if (state_.row_below()) {  // over the picture, under the bar
@@ -193,12 +206,6 @@ void Interface::build(const Studio& studio, double seconds, UiRenderer* renderer
               {12, 8}, [&] { side_panel(ui); });
   fixed_panel("status", {{0, size.y - kStatusHeight}, {size.x, size.y}}, p,
               kFixed | ImGuiWindowFlags_NoScrollWithMouse, {12, 3}, [&] { status_bar(ui); });
-  if (!dialog_open()) {
-    line({0, kTopHeight}, {size.x, kTopHeight}, p);
-    line({kToolsWidth, kTopHeight}, {kToolsWidth, size.y - kStatusHeight}, p);
-    line({size.x - side_width(size), kTopHeight}, {size.x - side_width(size), size.y - kStatusHeight}, p);
-    line({0, size.y - kStatusHeight}, {size.x, size.y - kStatusHeight}, p);
-  }
   file_dialog(ui);
   replace_dialog(ui);
   export_dialog(ui);
