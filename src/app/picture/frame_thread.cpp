@@ -197,7 +197,7 @@ std::optional<FrameResult> FrameThread::draw(const FrameRequest& request, const 
       kept = {request.scene, pane.shown,       pane.clean, request.limits,
               request.full,  std::move(frame), nullptr,    nullptr};
     }
-    if (kept.full && pane.style.owner && (!kept.owners || kept.owner != pane.style.owner)) {
+    if (kept.full && pane.style.owner && (!kept.owners || !same_set(kept.owner, pane.style.owner))) {
       kept.owners = owners_in(request, pane, *kept.frame, job);
       if (job.cancelled()) return std::nullopt;
       kept.owner = pane.style.owner;
