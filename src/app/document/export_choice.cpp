@@ -149,7 +149,9 @@ std::string changes_text(const ExportChoice& choice, const EdgesKnown& edges, co
 std::string loss_text(const ExportChoice& choice, const EdgesKnown& edges, const HoleKnown& hole,
                       const FormatPlan& plan) {
   if (!plan.lost.empty()) return "Lost: " + plan.lost;
-  return changes_text(choice, edges, hole).empty() ? "Nothing is lost." : "";
+  const bool loses_objects =
+      choice.what == ExportWhat::kOneFile && choice.format.name != SceneFormat::kPly.name;
+  return changes_text(choice, edges, hole).empty() && !loses_objects ? "Nothing is lost." : "";
 }
 
 bool names_written_format(std::string_view path) {

@@ -320,6 +320,11 @@ TEST_CASE("exports: the dialog promises a number, and that nothing is lost, only
   CHECK(changes_text(choice, rows, stays_open).empty());
   choice.what = ExportWhat::kObject;  // which leaves its hole elsewhere
   CHECK(changes_text(choice, rows, fills).empty());
+  choice.what = ExportWhat::kOneFile;
+  CHECK(loss_text(choice, rows, {}, plan) == "Nothing is lost.");
+  choice.format = SceneFormat::kSplat;  // it does not say which object a Gaussian is of
+  CHECK(loss_text(choice, rows, {}, plan).empty());
+  CHECK(numbers_text(choice) == "Which object a Gaussian belongs to is kept in a .ply alone.");
 }
 
 TEST_CASE("hands: harmonics of every degree turn with the object") {
