@@ -34,7 +34,9 @@ void main() {
   vec3 selection = texelFetch(selected, p, 0).rgb;
   float here = strength(p);
   vec3 hue = here > 0.0 ? selection / here : vec3(1.0);
-  colour = mix(colour, tint_shaded ? shaded_tint(hue, colour) : hue, tint_strength * clamp(here, 0.0, 1.0));
+  // As the masks have it, a pixel is of the object or is not: faint Gaussians of it far away tint nothing.
+  float share = tint_shaded ? smoothstep(0.4, 0.6, here) : clamp(here, 0.0, 1.0);
+  colour = mix(colour, tint_shaded ? shaded_tint(hue, colour) : hue, tint_strength * share);
   float inside = step(0.5, here), border = 0.0;
   for (int y = -1; y <= 1; ++y)
     for (int x = -1; x <= 1; ++x) border = max(border, abs(inside - step(0.5, strength(p + ivec2(x, y)))));

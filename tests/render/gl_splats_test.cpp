@@ -160,6 +160,28 @@ TEST_CASE("a hidden Gaussian leaves no trace and a selected one gives its colour
   CHECK(middle[1] == doctest::Approx(255 * 0.0225).epsilon(0.2));
 }
 
+TEST_CASE("a shaded tint covers pixels that are mostly selected, and leaves the others as they are") {
+  const auto context = make_osmesa_context();
+  for (const float share : {0.3f, 0.9f}) {
+    CAPTURE(share);
+    const GaussianCloud cloud = single_splat(2, 0.2f, share, glm::vec3(0.25f));
+    GlSplats splats;
+    splats.upload(cloud);
+    const std::uint32_t only[] = {0};
+    splats.upload_order(only);
+    splats.upload_styles(std::vector<SplatStyle>{{255, 0, 0, 255}});
+    splats.draw(axis_camera());
+    splats.resolve({.background = glm::vec3(0), .tint_strength = 1, .tint_shaded = true});
+    std::vector<std::uint8_t> rgba(33 * 33 * 4);
+    glBindTexture(GL_TEXTURE_2D, splats.picture_texture());
+    glGetTexImage(GL_TEXTURE_2D, 0, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
+    const std::uint8_t* middle = &rgba[4 * (16 * 33 + 16)];
+    const double grey = 0.25 * share, red = 0.7 + 0.5 * grey;
+    CHECK(middle[0] == doctest::Approx(255 * (share < 0.5f ? grey : red)).epsilon(0.02));
+    CHECK(middle[1] == doctest::Approx(255 * (share < 0.5f ? grey : 0)).epsilon(0.02));
+  }
+}
+
 TEST_CASE("a checker stands behind the splats, its squares as large as asked, from the top left") {
   const auto context = make_osmesa_context();
   const GaussianCloud cloud = single_splat(2, 0.2f, 0.9f, glm::vec3(0.25f));

@@ -155,6 +155,13 @@ Flags had_by_others(const Document& document, const ObjectItem& object, std::siz
   return count_flags(had) > 0 ? make_flags(std::move(had)) : nullptr;
 }
 
+bool is_without_others(const ObjectItem& object) {
+  if (!object.of_others) return false;
+  for (std::size_t g = 0; object.hand && g < object.hand->size(); ++g)
+    if ((*object.hand)[g] == kHandObject && (*object.of_others)[g]) return false;
+  return true;
+}
+
 void set_of_others(ObjectItem* object, Flags of_others) {
   object->of_others = std::move(of_others);
   object->leaves_also.clear();

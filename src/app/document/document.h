@@ -102,6 +102,9 @@ bool is_part_of(const Document& document, const ObjectItem& part, ObjectId whole
 Flags had_by_others(const Document& document, const ObjectItem& object, std::size_t gaussians,
                     ObjectId only = 0);
 
+// Whether the object leaves to others all that it is to leave, also what a hand took since.
+bool is_without_others(const ObjectItem& object);
+
 // Sets ObjectItem::of_others, with nothing on its way. What hands took of that is left to the others, too;
 // what hands had taken of what was left before is the object's again.
 void set_of_others(ObjectItem* object, Flags of_others);

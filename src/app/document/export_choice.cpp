@@ -54,11 +54,12 @@ std::string proposed_path(const ExportChoice& choice, const std::filesystem::pat
       choice.path.empty() ? folder_of_next(scene, last) : std::filesystem::path(choice.path).parent_path();
   std::string stem = scene_name(scene);
   stem = stem.substr(0, stem.find('.'));
-  std::string name = choice.what == ExportWhat::kRest         ? "rest"
-                     : choice.what == ExportWhat::kScene      ? "scene"
-                     : choice.what == ExportWhat::kAllObjects ? "objects"
-                     : object                                 ? object->name
-                                                              : "object";
+  std::string name = choice.what == ExportWhat::kRest    ? "rest"
+                     : choice.what == ExportWhat::kScene ? "scene"
+                     : choice.what == ExportWhat::kAllObjects || choice.what == ExportWhat::kOneFile
+                         ? "objects"
+                     : object ? object->name
+                              : "object";
   for (char& c : name)
     if (c == ' ' || c == '/') c = '_';
   const std::string extension = choice.what == ExportWhat::kAllObjects ? "" : choice.format.extension;
@@ -106,10 +107,20 @@ std::string amount_text(const ExportChoice& choice, std::size_t gaussians, const
                      about || plan.about ? "about " : "", human_bytes(plan.bytes));
 }
 
-std::string kept_text(const ExportChoice& choice, const FormatPlan& plan) {
+std::string kept_text(const ExportChoice& choice, const FormatPlan& plan, const std::string& changes) {
   std::string what = plan.kept;  // a sentence
   if (!what.empty()) what[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(what[0])));
-  return (choice.placement == ExportPlacement{} ? "Kept: " : "Written: ") + what;
+  return (choice.placement != ExportPlacement{} ? "Written: "
+          : changes.empty()                     ? "Kept: "
+                                                : "Kept, but for what is said below: ") +
+         what;
+}
+
+std::string numbers_text(const ExportChoice& choice) {
+  if (choice.what != ExportWhat::kOneFile) return {};
+  return choice.format.name == SceneFormat::kPly.name
+             ? "object_id says the object's place in the list; names go to a .json beside the file."
+             : "Which object a Gaussian belongs to is kept in a .ply alone.";
 }
 
 std::string moved_text(const ExportPlacement& placement) {
@@ -138,7 +149,9 @@ std::string changes_text(const ExportChoice& choice, const EdgesKnown& edges, co
 std::string loss_text(const ExportChoice& choice, const EdgesKnown& edges, const HoleKnown& hole,
                       const FormatPlan& plan) {
   if (!plan.lost.empty()) return "Lost: " + plan.lost;
-  return changes_text(choice, edges, hole).empty() ? "Nothing is lost." : "";
+  const bool loses_objects =
+      choice.what == ExportWhat::kOneFile && choice.format.name != SceneFormat::kPly.name;
+  return changes_text(choice, edges, hole).empty() && !loses_objects ? "Nothing is lost." : "";
 }
 
 bool names_written_format(std::string_view path) {

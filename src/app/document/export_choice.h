@@ -24,6 +24,8 @@ struct ExportChoice {
   ExportPlacement placement;  // kept for the next export of the scene
   std::uint32_t placed_file = 0;  // the scene's first, that it is for
   FormatPlan plan;
+  std::uint64_t counted_at = 0;  // History::serial() at which all objects together had `in_one` Gaussians
+  std::size_t in_one = 0;
   std::string plan_key;                // what it was made for
   std::string trouble;                 // why the last try failed
   std::optional<ExportRequest> tried;  // what that was; none: what the dialog says when it comes back
@@ -76,7 +78,10 @@ std::string amount_text(const ExportChoice& choice, std::size_t gaussians, const
                         const HoleKnown& hole, const FormatPlan& plan);
 // What a file of that format holds, and that it stands otherwise than in the scene; the second one is empty
 // where it does not.
-std::string kept_text(const ExportChoice& choice, const FormatPlan& plan);
+// changes: what changes_text() says.
+std::string kept_text(const ExportChoice& choice, const FormatPlan& plan, const std::string& changes = {});
+// Whether a file of all objects says which is which; empty: it holds no several.
+std::string numbers_text(const ExportChoice& choice);
 std::string moved_text(const ExportPlacement& placement);
 // Whose edges stay, though clean ones are asked for; empty: nobody's.
 std::string edges_stay_text(const EdgesKnown& edges);

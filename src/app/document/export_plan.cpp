@@ -3,12 +3,15 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "app/console/kept_inputs.h"
 #include "app/console/output_folder.h"
 #include "app/document/words.h"
+#include "core/atomic_file.h"
 #include "core/error.h"
+#include "core/json_file.h"
 
 namespace splatcut {
 
@@ -21,6 +24,7 @@ struct Exporting {
   const Document& document;
   CleanObjects* clean;  // null: rows stay as they are
   const Job& job;
+  std::span<const std::uint8_t> object_ids = {};  // see SaveOptions
 };
 
 // Null where the object's rows are written as they are, or where it was cancelled.
@@ -63,7 +67,7 @@ void save(const std::filesystem::path& path, const std::vector<std::uint8_t>& ke
   if (what.job.cancelled()) return;
   std::optional<MovedTo> moved;
   if (to) moved = {*to, request.placement.origin == ExportOrigin::kScene};
-  const SaveOptions options{.up = what.document.up_world};
+  const SaveOptions options{.up = what.document.up_world, .object_ids = what.object_ids};
   const SaveReport saved =
       clean ? save_gaussians(path, what.scene, keep, &clean->cloud, request.format, moved, options)
             : save_rest(path, what.scene, keep, changes, request.format, moved, options);
@@ -73,20 +77,43 @@ void save(const std::filesystem::path& path, const std::vector<std::uint8_t>& ke
   ++report->files;
 }
 
-std::vector<std::uint8_t> labels_of_all(const Document& document, std::size_t gaussians) {
-  std::vector<std::uint8_t> all(gaussians, 0);
-  for (const ObjectItem& item : document.objects) {
-    const std::vector<std::uint8_t> labels = labels_of(document, item, gaussians);
-    for (std::size_t g = 0; g < gaussians; ++g) all[g] |= labels[g];
+// The place in the list of the last object that has the Gaussian, from 1; 0: none has it.
+std::vector<std::uint8_t> owners(const Document& document, std::size_t gaussians) {
+  std::vector<std::uint8_t> owner(gaussians, 0);
+  for (std::size_t o = 0; o < document.objects.size(); ++o) {
+    const std::vector<std::uint8_t> labels = labels_of(document, document.objects[o], gaussians);
+    for (std::size_t g = 0; g < gaussians; ++g)
+      if (labels[g]) owner[g] = static_cast<std::uint8_t>(o + 1);
   }
-  return all;
+  return owner;
+}
+
+// Where the file can say the numbers, what they stand for.
+void save_in_one(const std::vector<std::uint8_t>& owner, const std::optional<Similarity>& to, Exporting what,
+                 ExportReport* report) {
+  const ExportRequest& request = what.request;
+  if (request.format.name != SceneFormat::kPly.name) {
+    save(request.path, owner, nullptr, {}, to, what, report);
+    report->loss += (report->loss.empty() ? "" : "; ") + std::string("which object a Gaussian belongs to");
+    return;
+  }
+  const std::filesystem::path names = std::filesystem::path(request.path).replace_extension(".json");
+  refuse_written_inputs(names, what.scene.files);
+  check_output_file(names, request.overwrite, "Choose another name, or to write over it");
+  what.object_ids = owner;
+  save(request.path, owner, nullptr, {}, to, what, report);
+  if (what.job.cancelled()) return;
+  nlohmann::json objects = nlohmann::json::array();
+  for (const ObjectItem& item : what.document.objects)
+    objects.push_back({{"object_id", objects.size() + 1}, {"name", item.name}});
+  write_text_file(names, json_text({{"objects", objects}}, 2) + "\n");
 }
 
 }  // namespace
 
 std::vector<std::uint8_t> exported(const Document& document, ObjectId object, ExportWhat what,
                                    std::size_t gaussians) {
-  if (what == ExportWhat::kAllObjects) return labels_of_all(document, gaussians);
+  if (what == ExportWhat::kAllObjects || what == ExportWhat::kOneFile) return owners(document, gaussians);
   const ObjectItem* item = document.find(object);
   if (what == ExportWhat::kObject)
     return item ? labels_of(document, *item, gaussians) : std::vector<std::uint8_t>(gaussians, 0);
@@ -232,6 +259,11 @@ ExportReport run_export(const Scene& scene, const Document& document, ObjectId o
   if (!request.path.string().ends_with(request.format.extension))
     throw Error(request.path.string(), fmt::format("does not end with {}", request.format.extension),
                 "It could not be opened again");
+  if (request.what == ExportWhat::kOneFile) {
+    const std::vector<std::uint8_t> owner = exported(document, object, request.what, n);
+    save_in_one(owner, place(owner), what, &report);
+    return report;
+  }
   if (request.what != ExportWhat::kScene && !document.find(object))
     throw Error("", "No object is chosen", "Click an object first");
   const std::vector<std::uint8_t> keep = exported(document, object, request.what, n);

@@ -18,8 +18,9 @@
 namespace splatcut {
 
 // kRest: all but the object. kScene: all that was not deleted. kAllObjects: one file per object, named after
-// it.
-enum class ExportWhat { kObject, kRest, kScene, kAllObjects };
+// it. kOneFile: all objects in one file, their rows as they are, as `cut --write objects` has it: a .ply says
+// whose a Gaussian is as object_id, the object's place in the list, and a .json beside it says the names.
+enum class ExportWhat { kObject, kRest, kScene, kAllObjects, kOneFile };
 
 // Form of a turntable: a folder of PNGs, an animated WebP, or a .mp4 that ffmpeg makes.
 enum class TurntableAs { kPictures, kWebp, kVideo };
@@ -54,7 +55,8 @@ void count_edges(const CleanReport& clean, ExportReport* report, const std::stri
 std::string edges_text(const ExportReport& report);
 std::string text_of(const ExportReport& report, const std::filesystem::path& path);
 
-// Flags per Gaussian of the scene: 1 if the export writes it, for kAllObjects into any of its files.
+// Flags per Gaussian of the scene: not 0 if the export writes it, for kAllObjects into any of its
+// files; for kOneFile the number of its object.
 // gaussians: size of the cloud.
 std::vector<std::uint8_t> exported(const Document& document, ObjectId object, ExportWhat what,
                                    std::size_t gaussians);

@@ -154,7 +154,9 @@ std::string edit(Document* document, const SeparateObject& command, const EditCo
 std::string edit(Document* document, const LeaveToOthers& command, const EditContext& context) {
   ObjectItem& object = unlocked(document, command.object);
   set_of_others(&object, command.leaves ? had_by_others(*document, object, context.cloud.size()) : nullptr);
-  return counted(*document, object, context);
+  if (command.leaves && !object.of_others) return "The other objects have nothing: " + object.name + " stays";
+  return fmt::format("{}: {}", command.leaves ? "Now without the other objects" : "Now with what others have",
+                     counted(*document, object, context));
 }
 
 }  // namespace splatcut

@@ -48,6 +48,30 @@ std::string why_so_already(const CutRequest& request, const CutResult& result) {
          (result.size + 1 < result.sizes ? ", or press + for a larger part" : "");
 }
 
+std::vector<std::string> doubts_to_show(const CutRequest& request, const CutResult& result) {
+  std::vector<std::string> doubts = doubts_of(result);
+  if (!result.spot_alone) return doubts;
+  const bool adds = last_stroke(request.strokes)->label == SeedLabel::kObject;
+  doubts.front() = std::string("the click changed the spot around it alone: ") +
+                   (result.size + 1 < result.sizes ? "turn the wheel for more"
+                    : adds                         ? "scribble over what is missing"
+                                                   : "scribble with the right button over what is too much");
+  return doubts;
+}
+
+std::string doubt_of_other_way(const CutRequest& request, const std::vector<std::uint8_t>& before,
+                               const std::vector<std::uint8_t>& after) {
+  std::size_t added = 0, removed = 0;
+  for (std::size_t g = 0; g < after.size(); ++g) {
+    added += after[g] && !before[g];
+    removed += before[g] && !after[g];
+  }
+  const Stroke* last = last_stroke(request.strokes);
+  if (!last || (last->label == SeedLabel::kObject ? removed <= added : added <= removed)) return {};
+  return last->label == SeedLabel::kObject ? "more was taken away than added: Ctrl+Z brings it back"
+                                           : "more was added than taken away: Ctrl+Z undoes it";
+}
+
 std::string wheel_hint(const CutRequest& request, const CutResult& result,
                        const std::vector<std::uint8_t>& before, const std::vector<std::uint8_t>& after) {
   const bool first = first_stroke(request.strokes) == last_stroke(request.strokes);
@@ -60,7 +84,7 @@ std::string wheel_hint(const CutRequest& request, const CutResult& result,
 
 bool add_doubt_of_sides(CutRun* run) {
   if (std::ranges::all_of(run->views, [](const ViewCard& card) { return card.doubt.empty(); })) return false;
-  run->doubts.emplace_back("sides in doubt are marked in the thumbnails");
+  run->doubts.emplace_back(kDoubtOfSides);
   return true;
 }
 

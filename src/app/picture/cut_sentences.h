@@ -24,6 +24,14 @@ bool changed_little(const std::vector<std::uint8_t>& before, const std::vector<s
 // Of a last click that asks for what is so already: that it does, and what to do for more.
 std::string why_so_already(const CutRequest& request, const CutResult& result);
 
+// As doubts_of(); of a last click that changed the spot around it alone they say what to do here.
+std::vector<std::string> doubts_to_show(const CutRequest& request, const CutResult& result);
+
+// Of a last click or stroke that did more of the other thing: that, and how to take it back. Empty: it did
+// not. before, after: as above.
+std::string doubt_of_other_way(const CutRequest& request, const std::vector<std::uint8_t>& before,
+                               const std::vector<std::uint8_t>& after);
+
 // What the wheel does after a click: a hint, no doubt. Empty: there is no other size, or a first click is
 // clear, or its other meanings are offered, one question at a time. What changed too little to be seen was
 // not too much. before, after: as above.
@@ -32,6 +40,7 @@ std::string wheel_hint(const CutRequest& request, const CutResult& result,
 
 // Adds to the doubts that sides, perhaps the user's own, are in doubt by their pictures; returns false if
 // none is. Without their number: marks are counted in the thumbnails, where they come and go.
+inline constexpr const char* kDoubtOfSides = "sides in doubt are marked in the thumbnails";
 bool add_doubt_of_sides(CutRun* run);
 
 // Names another object most of which the object holds, too; empty: there is none. Objects may overlap, but a

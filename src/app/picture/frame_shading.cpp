@@ -23,15 +23,6 @@ Rgba8 rgba8(const glm::vec3& c) {
           255};
 }
 
-Image<std::uint8_t> owners_of(const Frame& frame, const Flags& owner) {
-  Image<std::uint8_t> out(frame.first_hit.width(), frame.first_hit.height());
-  if (!owner) return out;
-  std::ranges::transform(frame.first_hit.pixels(), out.pixels().begin(), [&](std::int32_t g) {
-    return g >= 0 ? (*owner)[static_cast<std::size_t>(g)] : std::uint8_t{0};
-  });
-  return out;
-}
-
 // What the 5 x 5 pixels around one hold.
 struct Around {
   std::uint8_t owner = 0;  // the object most of the marked neighbours belong to
@@ -70,6 +61,15 @@ float border(float inside) {
 
 }  // namespace
 
+Image<std::uint8_t> owners_of(const Frame& frame, const Flags& owner) {
+  Image<std::uint8_t> out(frame.first_hit.width(), frame.first_hit.height());
+  if (!owner) return out;
+  std::ranges::transform(frame.first_hit.pixels(), out.pixels().begin(), [&](std::int32_t g) {
+    return g >= 0 ? (*owner)[static_cast<std::size_t>(g)] : std::uint8_t{0};
+  });
+  return out;
+}
+
 glm::vec3 heat_colour(float value) {
   constexpr std::array<glm::vec3, 5> kStops = {glm::vec3(0.16f, 0.2f, 0.55f), glm::vec3(0.1f, 0.55f, 0.75f),
                                                glm::vec3(0.55f, 0.8f, 0.4f), glm::vec3(0.98f, 0.78f, 0.22f),
@@ -85,10 +85,11 @@ glm::vec3 checker_colour(int x, int y, float side_px) {
   return glm::vec3((square.x + square.y) % 2 == 0 ? kLight : kDark);
 }
 
-Image<Rgba8> shaded(const Frame& frame, const FrameStyle& style) {
+Image<Rgba8> shaded(const Frame& frame, const FrameStyle& style, const Image<std::uint8_t>* known_owners) {
   const int width = frame.colour.width(), height = frame.colour.height();
   Image<Rgba8> picture(width, height);
-  const Image<std::uint8_t> owners = owners_of(frame, style.owner);
+  const Image<std::uint8_t> of_hits = known_owners ? Image<std::uint8_t>() : owners_of(frame, style.owner);
+  const Image<std::uint8_t>& owners = known_owners ? *known_owners : of_hits;
   const Image<std::uint8_t> highlights = owners_of(frame, style.highlight);
   tbb::parallel_for(0, height, [&](int y) {
     const auto colours = frame.colour.row(y);

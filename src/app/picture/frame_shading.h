@@ -46,7 +46,12 @@ struct FrameStyle {
 // Colour of the checker at a pixel.
 glm::vec3 checker_colour(int x, int y, float side_px);
 
-Image<Rgba8> shaded(const Frame& frame, const FrameStyle& style);
+// The number of the object that the Gaussian of each pixel that shows belongs to; 0: none. owner: as in
+// FrameStyle.
+Image<std::uint8_t> owners_of(const Frame& frame, const Flags& owner);
+
+// owners: the numbers of the objects that most of each pixel is of; null: those of owners_of().
+Image<Rgba8> shaded(const Frame& frame, const FrameStyle& style, const Image<std::uint8_t>* owners = nullptr);
 
 // Colour of a heat value: 0 is blue, 1 is red, yellow lies between.
 glm::vec3 heat_colour(float value);

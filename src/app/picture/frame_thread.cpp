@@ -2,6 +2,7 @@
 
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <chrono>
 
 #include "core/stage_clock.h"
@@ -32,6 +33,14 @@ Flags within_far_plane(const GaussianCloud& cloud, const Camera& camera, const F
 }
 
 namespace {
+
+// Of Gaussians that stand for others, those that are shown or stand for none.
+Flags own_flags(const Flags& shown, std::span<const std::uint32_t> stands_for) {
+  if (!shown) return nullptr;
+  std::vector<std::uint8_t> set;
+  for (const std::uint32_t g : stands_for) set.push_back(g == kNoGaussian || (*shown)[g]);
+  return make_flags(std::move(set));
+}
 
 std::shared_ptr<Frame> frame_of(const GaussianCloud& cloud, const Camera& camera, const Flags& visible,
                                 const DrawLimits& limits, const Job& job,
@@ -66,13 +75,7 @@ std::shared_ptr<const Frame> raster_frame(const GaussianCloud& cloud, const Came
 std::shared_ptr<const Frame> stand_in_frame(const GaussianCloud& cloud,
                                             std::span<const std::uint32_t> stands_for, const Camera& camera,
                                             const Flags& shown, const DrawLimits& limits, const Job& job) {
-  Flags own_shown;
-  if (shown) {
-    std::vector<std::uint8_t> set;
-    for (const std::uint32_t g : stands_for) set.push_back(g == kNoGaussian || (*shown)[g]);
-    own_shown = make_flags(std::move(set));
-  }
-  auto frame = frame_of(cloud, camera, own_shown, limits, job);
+  auto frame = frame_of(cloud, camera, own_flags(shown, stands_for), limits, job);
   for (std::int32_t& hit : frame->first_hit.pixels())
     if (hit >= 0) hit = static_cast<std::int32_t>(stands_for[static_cast<std::size_t>(hit)]);  // none: -1
   return frame;
@@ -87,6 +90,52 @@ std::shared_ptr<const Frame> rastered(const FrameRequest& request, const PaneReq
   if (pane.clean) return stand_in(pane.clean->cloud, pane.clean->gaussian);
   if (request.coarse && !request.full) return stand_in(request.coarse->cloud, request.coarse->stands_for);
   return raster_frame(*request.cloud, pane.camera, pane.shown, request.limits, job, request.blocks.get());
+}
+
+// Where any pixel has a number, and as far around as the shading looks.
+PixelRect box_of(const Image<std::uint8_t>& owners) {
+  PixelRect box{owners.width(), owners.height(), 0, 0};
+  for (int y = 0; y < owners.height(); ++y)
+    for (int x = 0; x < owners.width(); ++x)
+      if (owners.at(x, y) != 0)
+        box = {std::min(box.x0, x), std::min(box.y0, y), std::max(box.x1, x + 1), std::max(box.y1, y + 1)};
+  constexpr int kAround = 2;
+  return {std::max(0, box.x0 - kAround), std::max(0, box.y0 - kAround),
+          std::min(owners.width(), box.x1 + kAround), std::min(owners.height(), box.y1 + kAround)};
+}
+
+// The object that most of each pixel is of, as masks have it: what shows is one Gaussian of a pixel, which
+// may be a faint one of an object far away.
+std::shared_ptr<const Image<std::uint8_t>> owners_in(const FrameRequest& request, const PaneRequest& pane,
+                                                     const Frame& frame, const Job& job) {
+  const std::vector<std::uint8_t>& owner = *pane.style.owner;
+  auto owners = std::make_shared<Image<std::uint8_t>>(owners_of(frame, pane.style.owner));
+  const PixelRect box = box_of(*owners);
+  if (box.x0 >= box.x1) return owners;
+  const GaussianCloud& cloud = pane.clean ? pane.clean->cloud : *request.cloud;
+  std::vector<std::uint32_t> groups(cloud.size(), 0);
+  for (std::size_t i = 0; i < groups.size(); ++i)
+    if (const std::size_t g = pane.clean ? pane.clean->gaussian[i] : i; g != kNoGaussian)
+      groups[i] = owner[g];
+  const Flags shown = within_far_plane(cloud, pane.camera,
+                                       pane.clean ? own_flags(pane.shown, pane.clean->gaussian) : pane.shown,
+                                       request.limits.far_plane);
+  RasterOptions options;
+  options.colour = false;
+  options.groups = groups;
+  options.roi = box;
+  options.near_plane = request.limits.near_plane;
+  options.low_pass_px2 = request.limits.low_pass_px2;
+  if (!pane.clean) options.blocks = request.blocks.get();
+  if (shown) options.shown = *shown;
+  const RasterOutput out = rasterize(cloud, pane.camera, options, job);
+  if (job.cancelled()) return nullptr;
+  for (int y = box.y0; y < box.y1; ++y)
+    for (int x = box.x0; x < box.x1; ++x) {
+      const std::uint32_t group = out.group.at(x - box.x0, y - box.y0);
+      owners->at(x, y) = group == kNoGroup ? std::uint8_t{0} : static_cast<std::uint8_t>(group);
+    }
+  return owners;
 }
 
 }  // namespace
@@ -135,7 +184,7 @@ std::optional<FrameResult> FrameThread::draw(const FrameRequest& request, const 
   Job job;
   job.stop = stop;
   kept_.resize(request.panes.size());
-  FrameResult result{request.scene, {}, {}, {}, request.full, 0, request.limits};
+  FrameResult result{request.scene, {}, {}, {}, {}, request.full, 0, request.limits};
   for (std::size_t i = 0; i < request.panes.size(); ++i) {
     const PaneRequest& pane = request.panes[i];
     Kept& kept = kept_[i];
@@ -145,10 +194,17 @@ std::optional<FrameResult> FrameThread::draw(const FrameRequest& request, const 
     if (!reusable) {
       auto frame = rastered(request, pane, job);
       if (job.cancelled()) return std::nullopt;
-      kept = {request.scene, pane.shown, pane.clean, request.limits, request.full, std::move(frame)};
+      kept = {request.scene, pane.shown,       pane.clean, request.limits,
+              request.full,  std::move(frame), nullptr,    nullptr};
+    }
+    if (kept.full && pane.style.owner && (!kept.owners || !same_set(kept.owner, pane.style.owner))) {
+      kept.owners = owners_in(request, pane, *kept.frame, job);
+      if (job.cancelled()) return std::nullopt;
+      kept.owner = pane.style.owner;
     }
     result.frames.push_back(kept.frame);
-    result.pictures.push_back(shaded(*kept.frame, pane.style));
+    result.owners.push_back(pane.style.owner ? kept.owners : nullptr);
+    result.pictures.push_back(shaded(*kept.frame, pane.style, result.owners.back().get()));
     result.shown.push_back(pane.shown);
   }
   result.ms = ms_since(start);

@@ -55,8 +55,11 @@ struct FrameRequest {
 struct FrameResult {
   std::uint64_t scene = 0;                           // FrameRequest::scene
   std::vector<std::shared_ptr<const Frame>> frames;  // one frame per pane
-  std::vector<Image<Rgba8>> pictures;                // one picture per pane
-  std::vector<Flags> shown;                          // PaneRequest::shown of each pane
+  // Per pane, of each pixel the number of the object that most of it is of; null: of a reduced picture, or
+  // there are no objects.
+  std::vector<std::shared_ptr<const Image<std::uint8_t>>> owners;
+  std::vector<Image<Rgba8>> pictures;  // one picture per pane
+  std::vector<Flags> shown;            // PaneRequest::shown of each pane
   bool full = true;
   double ms = 0;  // time of rasterising and shading
   DrawLimits limits;
@@ -91,6 +94,8 @@ class FrameThread {
     DrawLimits limits;
     bool full = true;
     std::shared_ptr<const Frame> frame;
+    Flags owner;  // what `owners` are of, FrameResult::owners
+    std::shared_ptr<const Image<std::uint8_t>> owners;
   };
   std::vector<Kept> kept_;
   struct Arena;  // TBB arena with a higher priority than other work

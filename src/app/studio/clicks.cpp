@@ -161,7 +161,7 @@ std::string Clicks::why_not_step(int steps) const {
     return !may_have ? "The last stroke has no sizes: only clicks have, and what began the object"
            : cuts_.comes(*object) || !run ? ""
            : run->changed_nothing         ? "The last click changed nothing, so it has no other size"
-                                  : "The last click means the spot around it alone: it has no other size";
+                                          : "The last click has no other size: scribble over what is meant";
   }
   const std::size_t size = size_wanted(), last = known->count() - 1;
   if (last == 0) return "The click means one size alone";
@@ -262,7 +262,11 @@ void Clicks::refresh_hover() {
     hover_.reset();
     return;
   }
-  if (hover_ && hover_->same_but_pixel(*ask) && hover_->pixel == ask->pixel) return;
+  if (hover_ && hover_->same_but_pixel(*ask) && hover_->pixel == ask->pixel) {
+    constexpr double kOutlinedSeconds = 2.5;  // then one looks at what lies under the outline
+    if (ws_.clock_s - outlined_s_ > kOutlinedSeconds) show_hover(nullptr, false);
+    return;
+  }
   constexpr float kElsewherePoints = 40;  // what was outlined there is not meant any more
   if (hover_ && glm::distance(hover_->pixel, ask->pixel) > kElsewherePoints * viewport_.pixels_per_point())
     show_hover(nullptr, false);
@@ -346,6 +350,7 @@ void Clicks::make_ready() {
 }
 
 void Clicks::show_hover(const Flags& change, bool rest) {
+  outlined_s_ = ws_.clock_s;
   constexpr Rgb8 kAdds{255, 255, 255}, kRemoves{225, 25, 60};
   viewport_.highlight(change, rest ? kRemoves : kAdds);
 }

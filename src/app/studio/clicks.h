@@ -110,6 +110,7 @@ class Clicks {
   };
   HoverLeft hover_left_;
   std::optional<HoverAsk> hover_;  // question that was asked last; its answer may be shown already
+  double outlined_s_ = 0;          // clock time at which what it outlines was last shown or taken away
   Ready ready_;
   std::string declined_offer_;   // ClickMeanings::key of the offer that was declined last
   double stepped_s_ = -1e9;      // clock time of the last choice of a size, or click that found some

@@ -145,7 +145,13 @@ WorkView SavedWork::seen() const {
 
 Image<Rgb8> SavedWork::small_picture() const {
   const FrameResult* shown = viewport_.picture();
-  return shown && !shown->pictures.empty() ? work_picture(shown->pictures.front()) : Image<Rgb8>();
+  if (!shown || shown->scene != ws_.scene->serial || shown->frames.empty() || shown->owners.empty())
+    return {};
+  FrameStyle style = viewport_.style(0);
+  style.highlight = nullptr;  // of the pointer: no work
+  if (style.owner && style.owner->size() != ws_.gaussians()) style.owner = nullptr;  // of the files before
+  if (style.heat && style.heat->size() != ws_.gaussians()) style.heat = nullptr;
+  return work_picture(shaded(*shown->frames.front(), style, shown->owners.front().get()));
 }
 
 TaskThread::Work SavedWork::autosaving() {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "app/picture/cut_sentences.h"
 #include "app/ui/panels.h"
 #include "app/ui/widgets.h"
 
@@ -44,13 +45,12 @@ void size_slider(UiContext& ui, const ObjectItem& object) {
   if (object.views.empty()) return;
   const StrokeSizes* known = ui.studio.clicks().known_sizes();
   if (!known || known->count() < 2) {
-    slider_label(known ? "Part  1 of 1" : "Part");
+    const std::string why = known ? "The click means one size alone" : ui.studio.clicks().why_not_step(1);
+    slider_label(why.empty() ? "Part" : "Part  1 of 1");
     ImGui::BeginDisabled();
     int none = 0;
     ImGui::SliderInt("##size", &none, 0, 1, "", ImGuiSliderFlags_NoInput);
     ImGui::EndDisabled();
-    if (known) return tooltip("The click means one size alone");
-    const std::string why = ui.studio.clicks().why_not_step(1);
     return tooltip(why.empty()
                        ? "Sizes of the last click, or of the box that began the object, once they are known"
                        : why);
@@ -123,11 +123,16 @@ void times(UiContext& ui, const CutRun* known) {
                fmt::format("first mask {}, cutout {}", ms_text(run.first_mask_ms), ms_text(run.total_ms)));
 }
 
+bool is_shown(const std::string& doubt, bool thumbnails) {
+  return thumbnails || doubt != kDoubtOfSides;
+}
+
 // The doubts, and a button to come nearer if the object is too small to see.
-void warnings(UiContext& ui, const CutRun& run) {
+void warnings(UiContext& ui, const CutRun& run, bool thumbnails) {
   bool too_far = run.result->outcome == Outcome::kNothingFound;
   if (too_far) wrapped_warning(ui, run.result->reason);
   for (const std::string& doubt : run.doubts) {
+    if (!is_shown(doubt, thumbnails)) continue;
     wrapped_warning(ui, as_sentence(doubt));
     too_far |= doubt.ends_with("come nearer");
   }
@@ -156,18 +161,19 @@ void cutout_panel(UiContext& ui) {
   times(ui, ui.studio.cuts().run(object->id));
 }
 
-bool has_cut_notes(const Studio& studio) {
+bool has_cut_notes(const Studio& studio, bool thumbnails) {
   const CutRun* run = studio.cuts().run(studio.document().active);
   if (!run) return false;
-  return run->running ||
-         (run->result && (run->result->outcome == Outcome::kNothingFound || !run->doubts.empty()));
+  const auto shown = [&](const std::string& doubt) { return is_shown(doubt, thumbnails); };
+  return run->running || (run->result && (run->result->outcome == Outcome::kNothingFound ||
+                                          std::ranges::any_of(run->doubts, shown)));
 }
 
-void cut_notes(UiContext& ui) {
+void cut_notes(UiContext& ui, bool thumbnails) {
   const CutRun* run = ui.studio.cuts().run(ui.studio.document().active);
   if (!run) return;
   if (!run->running) {
-    if (run->result) warnings(ui, *run);
+    if (run->result) warnings(ui, *run, thumbnails);
     return;
   }
   const auto progress = ui.studio.progress();

@@ -18,7 +18,7 @@ namespace splatcut {
 namespace {
 
 constexpr const char* kWhatNames[] = {"The object", "Everything else", "The whole scene",
-                                      "All objects, a file each"};
+                                      "All objects, a file each", "All objects, one file"};
 
 std::size_t gaussians_to_export(const Studio& studio, ExportWhat what) {
   const Document& document = studio.document();
@@ -33,9 +33,19 @@ std::size_t gaussians_to_export(const Studio& studio, ExportWhat what) {
   return sum;
 }
 
+// What several objects have counts once: looked for once for each state of the document.
+std::size_t gaussians_in_one(UiContext& ui) {
+  const std::uint64_t serial = ui.studio.history().serial();
+  ExportChoice& choice = ui.state.exporting;
+  if (std::exchange(choice.counted_at, serial) != serial)
+    choice.in_one = count_flags(
+        exported(ui.studio.document(), 0, ExportWhat::kOneFile, ui.studio.scene()->cloud->size()));
+  return choice.in_one;
+}
+
 EdgesKnown edges_known(const Studio& studio, ExportWhat what) {
   EdgesKnown known;
-  known.clean = studio.view().clean_edges && what != ExportWhat::kScene;
+  known.clean = studio.view().clean_edges && what != ExportWhat::kScene && what != ExportWhat::kOneFile;
   if (!known.clean) return known;
   const Document& document = studio.document();
   for (const ObjectItem& item : document.objects)
@@ -134,11 +144,14 @@ void export_choices(UiContext& ui) {
   ImGui::TextUnformatted("What");
   const ObjectItem* active = ui.studio.document().active_object();
   const std::string no_object = active ? "" : "There is no object yet";
-  for (int i = 0; i < 4; ++i) {
-    ImGui::SameLine(i == 0 ? 90.0f : 0.0f, i == 0 ? -1.0f : 2.0f);
+  constexpr int kFirstOfAll = 3;  // of a second row
+  for (int i = 0; i < 5; ++i) {
+    if (i == kFirstOfAll)
+      ImGui::SetCursorPosX(90);
+    else
+      ImGui::SameLine(i == 0 ? 90.0f : 0.0f, i == 0 ? -1.0f : 2.0f);
     const auto what = static_cast<ExportWhat>(i);
-    if (button(ui, kWhatNames[i], kWhatNames[i], what == ExportWhat::kScene ? "" : no_object,
-               choice.what == what))
+    if (button(ui, kWhatNames[i], "", what == ExportWhat::kScene ? "" : no_object, choice.what == what))
       choose_what(ui, what);
   }
   ImGui::AlignTextToFramePadding();
@@ -282,7 +295,7 @@ void export_dialog(UiContext& ui) {
     if (ui.state.exporting.path.empty()) propose_path(ui);
     remember_finish(ui);
   }
-  constexpr float kWidth = 640, kHeight = 478, kPreview = 330;
+  constexpr float kWidth = 640, kHeight = 510, kPreview = 330;
   const bool previews = ImGui::GetIO().DisplaySize.x >= kWidth + kPreview;
   if (!begin_dialog(id, ui.state.export_open, {previews ? kWidth + kPreview : kWidth, kHeight})) return;
   const bool dragging = ui.state.export_preview.grips.drag.has_value();  // Esc is for that
@@ -298,17 +311,23 @@ void export_dialog(UiContext& ui) {
     fill_hole_choice(ui);
     ImGui::SameLine();
   }
-  clean_edges_choice(ui, choice.what == ExportWhat::kScene ? "The whole scene is written as it is" : "");
-  const std::size_t gaussians = gaussians_to_export(ui.studio, choice.what);
+  clean_edges_choice(ui, choice.what == ExportWhat::kScene ? "The whole scene is written as it is"
+                         : choice.what == ExportWhat::kOneFile
+                             ? "All objects in one file are written as they are"
+                             : "");
+  const std::size_t gaussians = choice.what == ExportWhat::kOneFile
+                                    ? gaussians_in_one(ui)
+                                    : gaussians_to_export(ui.studio, choice.what);
   const EdgesKnown edges = edges_known(ui.studio, choice.what);
   const HoleKnown hole = hole_known(ui.studio, choice.what);
   const FormatPlan& plan = export_plan(ui, left_to_write(choice, gaussians, edges, hole));
   const Palette& p = ui.theme.colour;
   line_across(p);
   fact(icon::kInfo, p.accent, amount_text(choice, gaussians, edges, hole, plan));
-  fact(icon::kCheck, p.good, kept_text(choice, plan));
+  const std::string changes = changes_text(choice, edges, hole);
+  fact(icon::kCheck, p.good, kept_text(choice, plan, changes));
   for (const std::string& text :
-       {moved_text(choice.placement), edges_stay_text(edges), changes_text(choice, edges, hole)})
+       {numbers_text(choice), moved_text(choice.placement), edges_stay_text(edges), changes})
     if (!text.empty()) fact(icon::kInfo, p.accent, text);
   if (const std::string why = hole.why_not(); !why.empty())
     fact(icon::kWarning, p.warn, "The hole stays: " + why + ".");

@@ -60,8 +60,8 @@ void object_menu(UiContext& ui, const ObjectItem& object) {
   merge_menu(ui, object, locked);
   if (entry("Split into connected parts", first_of({locked, empty}))) ui.ask(SplitObject{object.id});
   if (entry("Separate in place", empty)) ui.ask(SeparateObject{object.id});
-  if (entry("Without the other objects", locked, object.of_others != nullptr))
-    ui.ask(LeaveToOthers{object.id, !object.of_others});
+  const bool without = is_without_others(object);
+  if (entry("Without the other objects", locked, without)) ui.ask(LeaveToOthers{object.id, !without});
   ImGui::Separator();
   const bool active = object.id == ui.studio.document().active;
   if (entry("Clear strokes", first_of({locked, object.views.empty() ? "It has no strokes" : "",

@@ -12,8 +12,9 @@ void turntable_button(UiContext& ui, const char* label, float width);
 void tool_column(UiContext& ui);
 void objects_panel(UiContext& ui);
 void cutout_panel(UiContext& ui);
-bool has_cut_notes(const Studio& studio);
-void cut_notes(UiContext& ui);  // what runs for the active object, or is in doubt of it
+// What runs for the active object, or is in doubt of it; of sides only beside their thumbnails.
+bool has_cut_notes(const Studio& studio, bool thumbnails);
+void cut_notes(UiContext& ui, bool thumbnails);
 // The sides of the active object: as high as they are in that room, 0: there are none; room.y: they are no
 // higher. They scroll where they have too little room.
 float view_cards_height(const Studio& studio, const ImVec2& room);

@@ -102,6 +102,7 @@ struct AfterSave {
   std::size_t saves = 0, cursor = 0;  // number of saves before; step of the history that is to be saved
 };
 
+inline constexpr float kStatusHeight = 30;   // of the status bar
 inline constexpr float kOptionsHeight = 44;  // of the options' first row under the bar, where they have one
 
 struct UiRect {

@@ -94,13 +94,13 @@ ImVec2 tooltip_place(const ImVec2& size, const UiRect& message) {
     at = {to_the_left ? around.Min.x - kTooltipGap - size.x : around.Max.x + kTooltipGap, from.y};
   } else {
     at = {from.x, to.y + kTooltipGap};
-    if (at.y + size.y > screen.y) at.y = from.y - kTooltipGap - size.y;
+    if (at.y + size.y > screen.y - kStatusHeight) at.y = from.y - kTooltipGap - size.y;
   }
   if (ImRect(at, {at.x + size.x, at.y + size.y})
           .Overlaps({message.min.x, message.min.y, message.max.x, message.max.y}))
     at.y = message.min.y - kTooltipGap - size.y;
   return {std::clamp(at.x, 0.0f, std::max(0.0f, screen.x - size.x)),
-          std::clamp(at.y, 0.0f, std::max(0.0f, screen.y - size.y))};
+          std::clamp(at.y, 0.0f, std::max(0.0f, screen.y - kStatusHeight - size.y))};
 }
 
 }  // namespace
@@ -173,7 +173,7 @@ bool button(UiContext& ui, const char* label, const std::string& tip, const std:
   const bool pressed = plain_button(ui, label, width);
   ImGui::EndDisabled();
   if (on) ImGui::PopStyleColor(3);
-  tooltip(reason.empty() ? tip : tip + "\n" + reason);
+  tooltip(reason.empty() ? tip : tip.empty() ? reason : tip + "\n" + reason);
   return pressed && reason.empty();
 }
 

@@ -15,7 +15,7 @@ namespace splatcut {
 
 namespace {
 
-constexpr float kTopHeight = 46, kToolsWidth = 54, kUsualSideWidth = 316, kStatus = 30;
+constexpr float kTopHeight = 46, kToolsWidth = 54, kUsualSideWidth = 316;
 
 // A third of a small window, so that the picture keeps the most of it.
 float side_width(const glm::vec2& window_size) {
@@ -84,9 +84,9 @@ ImVec2 cards_room() {
 }
 
 // height: of all of them, points.
-void notes_below(UiContext& ui, float room, float* height) {
+void notes_below(UiContext& ui, float room, bool thumbnails, float* height) {
   ImGui::BeginChild("notes", {0, room});
-  cut_notes(ui);
+  cut_notes(ui, thumbnails);
   *height = ImGui::GetCursorPosY();
   ImGui::EndChild();
 }
@@ -100,7 +100,18 @@ bool pointer_aims(bool aimed) {
 }
 
 void line(const glm::vec2& a, const glm::vec2& b, const Palette& palette) {
-  ImGui::GetForegroundDrawList()->AddLine({a.x, a.y}, {b.x, b.y}, packed(palette.line, 0.8f));
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.PushClipRectFullScreen();
+  list.AddLine({a.x, a.y}, {b.x, b.y}, packed(palette.line, 0.8f));
+  list.PopClipRect();
+}
+
+void borders(const glm::vec2& size, const Palette& palette) {
+  const float side = size.x - side_width(size), bottom = size.y - kStatusHeight;
+  line({0, kTopHeight}, {size.x, kTopHeight}, palette);
+  line({kToolsWidth, kTopHeight}, {kToolsWidth, bottom}, palette);
+  line({side, kTopHeight}, {side, bottom}, palette);
+  line({0, bottom}, {size.x, bottom}, palette);
 }
 
 }  // namespace
@@ -135,7 +146,7 @@ void Interface::resize(const glm::vec2& size_points, float pixels_per_point, UiR
 }
 
 UiRect Interface::viewport() const {
-  const float bottom = size_points_.y - kStatus;
+  const float bottom = size_points_.y - kStatusHeight;
   const auto whole = [&](float v) {
     return std::round(v * theme_.pixels_per_point) / theme_.pixels_per_point;
   };
@@ -172,8 +183,10 @@ void Interface::build(const Studio& studio, double seconds, UiRenderer* renderer
   const glm::vec2 size = size_points_;
   const UiRect view = viewport();
   state_.items = {{"picture", view.min, view.max}};
-  fixed_panel("picture", view, p, kFixed | ImGuiWindowFlags_NoScrollWithMouse, {0, 0},
-              [&] { covered_ = viewport_pane(ui, view, gpu_picture); });
+  fixed_panel("picture", view, p, kFixed | ImGuiWindowFlags_NoScrollWithMouse, {0, 0}, [&] {
+    covered_ = viewport_pane(ui, view, gpu_picture);
+    if (!dialog_open()) borders(size, p);  // over all panels, under tooltips
+  });
   fixed_panel("bar", {{0, 0}, {size.x, kTopHeight}}, p, kFixed | ImGuiWindowFlags_NoScrollWithMouse, {9, 9},
               [&] { top_bar(ui); });
   if (state_.row_below()) {  // over the picture, under the bar
@@ -187,18 +200,12 @@ void Interface::build(const Studio& studio, double seconds, UiRenderer* renderer
           std::max(kOptionsHeight, ImGui::GetCursorPosY() - ImGui::GetStyle().ItemSpacing.y + 8);
     });
   }
-  fixed_panel("tools", {{0, kTopHeight}, {kToolsWidth, size.y - kStatus}}, p, kFixed, {8, 8},
+  fixed_panel("tools", {{0, kTopHeight}, {kToolsWidth, size.y - kStatusHeight}}, p, kFixed, {8, 8},
               [&] { tool_column(ui); });
-  fixed_panel("side", {{size.x - side_width(size), kTopHeight}, {size.x, size.y - kStatus}}, p, kFixed,
+  fixed_panel("side", {{size.x - side_width(size), kTopHeight}, {size.x, size.y - kStatusHeight}}, p, kFixed,
               {12, 8}, [&] { side_panel(ui); });
-  fixed_panel("status", {{0, size.y - kStatus}, {size.x, size.y}}, p,
+  fixed_panel("status", {{0, size.y - kStatusHeight}, {size.x, size.y}}, p,
               kFixed | ImGuiWindowFlags_NoScrollWithMouse, {12, 3}, [&] { status_bar(ui); });
-  if (!dialog_open()) {
-    line({0, kTopHeight}, {size.x, kTopHeight}, p);
-    line({kToolsWidth, kTopHeight}, {kToolsWidth, size.y - kStatus}, p);
-    line({size.x - side_width(size), kTopHeight}, {size.x - side_width(size), size.y - kStatus}, p);
-    line({0, size.y - kStatus}, {size.x, size.y - kStatus}, p);
-  }
   file_dialog(ui);
   replace_dialog(ui);
   export_dialog(ui);
@@ -220,7 +227,8 @@ void Interface::side_panel(UiContext& ui) {
   // No thumbnail comes, goes or moves as one aims at it or at a row.
   if (!pointer_aims_ || !ImGui::IsWindowHovered(kAlsoDragged | ImGuiHoveredFlags_ChildWindows))
     cards_height_ = view_cards_height(ui.studio, for_cards);
-  const float notes = has_cut_notes(ui.studio) ? notes_room(notes_height_, cards_height_) : 0;
+  const float notes =
+      has_cut_notes(ui.studio, cards_height_ > 0) ? notes_room(notes_height_, cards_height_) : 0;
   const float between = notes > 0 && cards_height_ > 0 ? ImGui::GetStyle().ItemSpacing.y : 0;
   const float below = notes + between + cards_height_;
   begin_side_rows(below);
@@ -235,7 +243,7 @@ void Interface::side_panel(UiContext& ui) {
   ImGui::EndChild();
   ImGui::PopClipRect();
   if (below > 0) ImGui::Separator();
-  if (notes > 0) notes_below(ui, notes, &notes_height_);
+  if (notes > 0) notes_below(ui, notes, cards_height_ > 0, &notes_height_);
   if (cards_height_ <= 0) return;
   ImGui::BeginChild("cards", {0, cards_height_});
   view_cards(ui, for_cards);

@@ -234,7 +234,7 @@ CutRun CutJobs::cut_of(const Order& order, const Job& job, const OnSnapshot& on_
   done.total_ms = ms_since(start);
   done.meanings = meanings_of(order.request, *result);
   done.sizes = sizes_of(order.request, *result);
-  done.doubts = doubts_of(*result);
+  done.doubts = doubts_to_show(order.request, *result);
   return done;
 }
 
@@ -356,6 +356,9 @@ void CutJobs::finish(const Order& order, CutRun run, const Flags& labels) {
   const std::string box =
       *before == *labels_now() ? "" : added_by_box(ws_.history, order.object, ws_.context());
   const std::string shared = box + shared_with(ws_.document(), order.object, labels_of_item);
+  const std::string other_way = stroked ? doubt_of_other_way(order.request, *before, *labels_now()) : "";
+  if (!other_way.empty())
+    return ws_.say(Message::Kind::kRefused, fmt::format("{}: {}. But {}", name, changed, other_way));
   const std::string but = !doubt.empty()                                         ? doubt
                           : so_already && changed_little(*before, *labels_now()) ? already
                                                                                  : "";

@@ -36,3 +36,36 @@ TEST_CASE("sentences: after a click the hint says what the wheel does, and puts 
   result.meanings.resize(3);  // the bar offers them
   CHECK(hint(first, 1, 3).empty());
 }
+
+TEST_CASE("sentences: of a click that changed the spot around it alone there is one advice, and it works") {
+  CutRequest adds, removes;
+  adds.strokes = {{{}, {click({5, 5}, SeedLabel::kObject)}, {}}};
+  removes.strokes = {{{}, {click({5, 5}, SeedLabel::kObject), click({9, 9}, SeedLabel::kRest)}, {}}};
+  CutResult result;
+  result.spot_alone = true;
+  const auto said = [&](const CutRequest& request, std::size_t size, std::size_t sizes) {
+    result.size = size;
+    result.sizes = sizes;
+    const std::vector<std::string> all = doubts_to_show(request, result);
+    return all.empty() ? "" : all.front();
+  };
+  CHECK(said(adds, 0, 3) == "the click changed the spot around it alone: turn the wheel for more");
+  CHECK(said(adds, 2, 3) == "the click changed the spot around it alone: scribble over what is missing");
+  CHECK(said(adds, 0, 0) == "the click changed the spot around it alone: scribble over what is missing");
+  CHECK(said(removes, 0, 1) ==
+        "the click changed the spot around it alone: scribble with the right button over what is too much");
+  result.spot_alone = false;
+  CHECK(said(adds, 0, 3).empty());
+}
+
+TEST_CASE("sentences: a click that did more of the other thing is told of, with the way back") {
+  CutRequest adds, removes;
+  adds.strokes = {{{}, {click({5, 5}, SeedLabel::kObject)}, {}}};
+  removes.strokes = {{{}, {click({5, 5}, SeedLabel::kObject), click({9, 9}, SeedLabel::kRest)}, {}}};
+  const std::vector<std::uint8_t> before{1, 1, 1, 0, 0}, fewer{1, 0, 0, 1, 0}, more{1, 1, 0, 1, 1};
+  CHECK(doubt_of_other_way(adds, before, fewer) == "more was taken away than added: Ctrl+Z brings it back");
+  CHECK(doubt_of_other_way(adds, before, more).empty());
+  CHECK(doubt_of_other_way(removes, before, more) == "more was added than taken away: Ctrl+Z undoes it");
+  CHECK(doubt_of_other_way(removes, before, fewer).empty());
+  CHECK(doubt_of_other_way(adds, before, before).empty());
+}

@@ -4,6 +4,7 @@
 
 #include <doctest/doctest.h>
 
+#include <array>
 #include <chrono>
 
 #include "quick.h"
@@ -40,4 +41,29 @@ QUICK_CASE("frame thread", "frame thread: of many requests the last is answered,
   CHECK(newest->full);
   CHECK(newest->frames[0]->first_hit == expected->first_hit);
   CHECK(newest->frames[0]->colour == expected->colour);
+}
+
+QUICK_CASE("frame thread",
+           "frame thread: a pixel belongs to the object that most of it is of, not to what shows") {
+  auto cloud = std::make_shared<GaussianCloud>(random_cloud(3, 7, 0));
+  const Camera camera = front_camera(90, 70);
+  const glm::vec3 ahead = camera.forward_world();
+  for (std::size_t g = 0; g < 3; ++g) {
+    cloud->position[g] = camera.centre_world() + (2 + static_cast<float>(g)) * ahead;
+    cloud->scale[g] = glm::vec3(0.3f);
+    cloud->opacity[g] = std::array{0.45f, 0.15f, 0.9f}[g];  // half of the light is gone in the second
+  }
+  for (const std::vector<std::uint8_t>& owner : {std::vector<std::uint8_t>{0, 1, 0}, {2, 1, 2}}) {
+    FrameThread thread;
+    FrameRequest request;
+    request.scene = 1;
+    request.cloud = cloud;
+    request.panes = {{camera, nullptr, {}}};
+    request.panes[0].style.owner = make_flags(owner);
+    thread.request(request);
+    std::optional<FrameResult> result;
+    while (!(result = thread.take())) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    REQUIRE(result->frames[0]->first_hit.at(45, 35) == 1);
+    CHECK(result->owners[0]->at(45, 35) == owner[0]);
+  }
 }

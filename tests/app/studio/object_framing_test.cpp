@@ -141,6 +141,23 @@ TEST_CASE("hands: what an object is set into does not stand before it") {
   CHECK(hands.said().find("stands before") == std::string::npos);
 }
 
+TEST_CASE("hands: F that waits for a cut, with I, is dropped where the view was turned meanwhile") {
+  for (const bool turned : {false, true}) {
+    Hands hands = hands_on_sample(false);
+    hands.app.click(hands.app.screen_of(kOnApple));
+    hands.app.key('I');
+    hands.app.key('F');
+    REQUIRE(hands.said().find("as soon as") != std::string::npos);
+    const CameraPose asked = hands.studio().camera().pose();
+    if (turned) hands.app.drag({{300, 400}, {340, 400}, {400, 410}}, PointerButton::kRight);
+    const CameraPose left = hands.studio().camera().pose();
+    CHECK((left == asked) == !turned);
+    REQUIRE(hands.app.settle());
+    CHECK(hands.studio().view().display == DisplayMode::kIsolate);
+    CHECK((hands.studio().camera().pose() == left) == turned);
+  }
+}
+
 TEST_CASE("hands: F lets the object fill four fifths of the picture") {
   Hands hands = hands_on_sample();
   hands.app.key('I');  // nothing stands before it

@@ -8,6 +8,7 @@
 
 #include "app/document/selection.h"
 #include "app/picture/cut_sentences.h"
+#include "app/ui/panels.h"
 #include "hands.h"
 
 using namespace splatcut;
@@ -53,6 +54,9 @@ TEST_CASE("sides: a right click that takes far sides is told of, and the picture
     CHECK(tip_of_card(cards(hands.app).front(), 0, true).find("\nRed left") != std::string::npos);
     CHECK(std::ranges::count(cards(hands.app), kTookFarSide, &ViewCard::doubt) == of_stroke(hands.app));
     CHECK(hands.said().find("sides in doubt are marked in the thumbnails") != std::string::npos);
+    const CutRun& run = *hands.studio().cuts().run(hands.studio().document().active);
+    CHECK(has_cut_notes(hands.studio(), true));
+    CHECK(has_cut_notes(hands.studio(), false) == (run.doubts.size() > 1));  // where there are none to see
   }
   // The next answer ends the doubt, before its own pictures are there.
   Studio& studio = hands.studio();

@@ -160,6 +160,23 @@ TEST_CASE("clicks: with outlines off, hovering outlines nothing where the rest i
   CHECK(outlined(false, DisplayMode::kWhole));
 }
 
+TEST_CASE("clicks: what hovering outlines goes while the pointer rests, and comes back as it moves") {
+  Hands hands;
+  const auto outlined = [&] { return hands.studio().viewport().style(0).highlight != nullptr; };
+  for (const bool alone : {false, true}) {
+    if (alone) hands.app.key('I');
+    const glm::vec2 at = hands.app.screen_of(kOnApple + glm::vec2(25, 5));
+    hands.app.move(at);
+    REQUIRE(hands.app.settle());
+    CHECK(outlined());
+    for (int i = 0; i < 3; ++i) hands.app->advance(1);
+    CHECK_FALSE(outlined());
+    hands.app.move(at + glm::vec2(2, 0));
+    REQUIRE(hands.app.settle());
+    CHECK(outlined());
+  }
+}
+
 TEST_CASE("clicks: where nothing is, a click is refused with a word and is no stroke") {
   Artist artist(on_sample("apple", kOnApple));
   ViewState view = artist.studio().view();

@@ -256,6 +256,8 @@ TEST_CASE("exports: the dialog says what is written, and of what is moved that i
   ExportChoice choice;
   CHECK(kept_text(choice, plan) == "Kept: places and colours.");
   CHECK(moved_text(choice.placement).empty());
+  CHECK(kept_text(choice, plan, "The hole is filled.") ==
+        "Kept, but for what is said below: places and colours.");
   choice.placement.scale = 2;
   CHECK(kept_text(choice, plan) == "Written: places and colours.");
   CHECK(moved_text(choice.placement) == "It stands as chosen above, not as in the scene.");
@@ -318,6 +320,11 @@ TEST_CASE("exports: the dialog promises a number, and that nothing is lost, only
   CHECK(changes_text(choice, rows, stays_open).empty());
   choice.what = ExportWhat::kObject;  // which leaves its hole elsewhere
   CHECK(changes_text(choice, rows, fills).empty());
+  choice.what = ExportWhat::kOneFile;
+  CHECK(loss_text(choice, rows, {}, plan) == "Nothing is lost.");
+  choice.format = SceneFormat::kSplat;  // it does not say which object a Gaussian is of
+  CHECK(loss_text(choice, rows, {}, plan).empty());
+  CHECK(numbers_text(choice) == "Which object a Gaussian belongs to is kept in a .ply alone.");
 }
 
 TEST_CASE("hands: harmonics of every degree turn with the object") {

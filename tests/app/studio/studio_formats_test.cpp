@@ -2,6 +2,9 @@
 #include <doctest/doctest.h>
 
 #include <chrono>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <thread>
 
@@ -258,6 +261,36 @@ TEST_CASE("formats: objects whose names become the same file are exported beside
   CHECK(report.files == 3);
   for (const auto& [file, gaussians] : {std::pair{"mug.ply", 10u}, {"mug_2.ply", 20u}, {"mug_3.ply", 30u}})
     CHECK(load_scene(folder / "all" / file).cloud.size() == gaussians);
+}
+
+TEST_CASE(
+    "formats: all objects in one file say whose each Gaussian is, the last one's where several have it") {
+  const Folder folder;
+  const Scene scene = load_scene(kSample);
+  Document document;
+  for (const std::ptrdiff_t from : {0, 20, 5000}) {
+    std::vector<std::uint8_t> hand(scene.cloud.size(), 0);
+    std::fill_n(hand.begin() + from, 30, kHandObject);
+    add_object(&document).hand = make_flags(std::move(hand));
+  }
+  ExportRequest request{.what = ExportWhat::kOneFile, .path = folder / "objects.ply"};
+  const ExportReport report = run_export(scene, document, 0, request);
+  CHECK(report.gaussians == 80);
+  CHECK(report.loss.find("which object") == std::string::npos);
+  CHECK(load_scene(request.path).cloud.size() == 80);
+  std::ifstream in(request.path, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  CHECK(bytes.find("property uchar object_id\n") != std::string::npos);
+  const std::size_t rows = bytes.find("end_header\n") + 11, row = (bytes.size() - rows) / 80;
+  std::map<int, int> of;
+  for (std::size_t g = 0; g < 80; ++g) ++of[static_cast<unsigned char>(bytes[rows + (g + 1) * row - 1])];
+  CHECK(of == std::map<int, int>{{1, 20}, {2, 30}, {3, 30}});
+  const auto names = nlohmann::json::parse(std::ifstream(folder / "objects.json"));
+  CHECK(names["objects"][1] == nlohmann::json{{"object_id", 2}, {"name", "Object 2"}});
+  CHECK_THROWS_AS(run_export(scene, document, 0, request), Error);  // it is there
+  request.format = SceneFormat::kSplat;
+  request.path = folder / "objects.splat";
+  CHECK(run_export(scene, document, 0, request).loss.find("which object") != std::string::npos);
 }
 
 TEST_CASE(

@@ -114,6 +114,27 @@ TEST_CASE("hands: a new object leaves to the others what they have, unless it is
   CHECK(shared(on_it) > count_flags(left_half) / 2);
 }
 
+TEST_CASE("hands: all that is selected by hand is not without the others, and is at the first choice") {
+  Hands hands;
+  Studio& studio = hands.studio();
+  const auto apple = studio.labels(studio.document().active);
+  hands.app.key('N', {.ctrl = true});
+  hands.app.click(hands.app.screen_of(kOnOrange));
+  REQUIRE(hands.app.settle());
+  const ObjectId second = studio.document().active;
+  CHECK(is_without_others(*studio.document().find(second)));
+  hands.app.key('A', {.ctrl = true});
+  REQUIRE(hands.selected() == apple.size());
+  CHECK_FALSE(is_without_others(*studio.document().find(second)));  // no tick
+  studio.apply(LeaveToOthers{second, true});
+  CHECK(hands.selected() == apple.size() - count_flags(apple));
+  CHECK(hands.said().find("Now without the other objects: Object 2: ") == 0);
+  CHECK(is_without_others(*studio.document().find(second)));
+  studio.apply(LeaveToOthers{second, false});
+  CHECK(hands.selected() == apple.size());
+  CHECK(hands.said().find("Now with what others have: Object 2: ") == 0);
+}
+
 TEST_CASE("hands: no two objects have one colour while others are free") {
   Hands hands(false);
   Studio& studio = hands.studio();

@@ -23,11 +23,13 @@ TEST_CASE("work that is saved by itself has a small picture of the view, which g
     opened(app);
     app.click(app.screen_of(kOnApple));
     REQUIRE(app.settle());
-    // What was saved meanwhile may have the picture before, or what the next click would change.
-    app.move({2, 2});
+    app.move(app.screen_of(kOnOrange));  // what a click there would change is outlined, and is no work
     REQUIRE(app.settle());
+    REQUIRE(app.studio().viewport().style(0).highlight);
     app.studio().apply(RenameObject{app.studio().document().active, "apple"});
     app.frames(60 * 3);
+    REQUIRE(app.settle());
+    app.move({2, 2});
     REQUIRE(app.settle());
     shown = work_picture(app.studio().viewport().picture()->pictures.front());
   }  // no leave(): as if it had crashed

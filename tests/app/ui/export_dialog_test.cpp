@@ -285,6 +285,9 @@ TEST_CASE(
   }
   hands.app.press_item("###export", {"All objects, a file each"});
   CHECK(choice.path == (folder / "mine").string());
+  hands.app.press_item("###export", {"All objects, one file"});
+  CHECK(target_of(choice) == folder / "mine.ply");
+  CHECK(choice.what == ExportWhat::kOneFile);
   hands.app.press_item("###export", {"The object"});
   CHECK(target_of(choice) == folder / "mine.ply");
   std::ofstream(folder / "mine.ply") << "x";

@@ -132,6 +132,11 @@ TEST_CASE("ui: a thumbnail under the pointer is shown larger beside the panel, a
   CHECK(glm::length(mean(large) - mean(small)) < 3);
   app.frames(2);
   CHECK(app.window("##Tooltip_00").size() == tip.size());
+  const auto& views = app.studio().cuts().run(app.studio().document().active)->views;
+  const UiRect last = app.button("side " + std::to_string(views.size() - 1));
+  app.move(0.5f * (last.min + last.max));
+  app.frames(3);
+  CHECK(app.window("##Tooltip_00").max.y <= app->interface().viewport().max.y);  // not over the status bar
   app.move({500, 400});
   app.frames(3);
   CHECK(app.window("##Tooltip_00").size() == glm::vec2(0));
