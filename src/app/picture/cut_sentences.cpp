@@ -59,19 +59,6 @@ std::vector<std::string> doubts_to_show(const CutRequest& request, const CutResu
   return doubts;
 }
 
-std::string doubt_of_other_way(const CutRequest& request, const std::vector<std::uint8_t>& before,
-                               const std::vector<std::uint8_t>& after) {
-  std::size_t added = 0, removed = 0;
-  for (std::size_t g = 0; g < after.size(); ++g) {
-    added += after[g] && !before[g];
-    removed += before[g] && !after[g];
-  }
-  const Stroke* last = last_stroke(request.strokes);
-  if (!last || (last->label == SeedLabel::kObject ? removed <= added : added <= removed)) return {};
-  return last->label == SeedLabel::kObject ? "more was taken away than added: Ctrl+Z brings it back"
-                                           : "more was added than taken away: Ctrl+Z undoes it";
-}
-
 std::string wheel_hint(const CutRequest& request, const CutResult& result,
                        const std::vector<std::uint8_t>& before, const std::vector<std::uint8_t>& after) {
   const bool first = first_stroke(request.strokes) == last_stroke(request.strokes);

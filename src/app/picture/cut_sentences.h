@@ -27,11 +27,6 @@ std::string why_so_already(const CutRequest& request, const CutResult& result);
 // As doubts_of(); of a last click that changed the spot around it alone they say what to do here.
 std::vector<std::string> doubts_to_show(const CutRequest& request, const CutResult& result);
 
-// Of a last click or stroke that did more of the other thing: that, and how to take it back. Empty: it did
-// not. before, after: as above.
-std::string doubt_of_other_way(const CutRequest& request, const std::vector<std::uint8_t>& before,
-                               const std::vector<std::uint8_t>& after);
-
 // What the wheel does after a click: a hint, no doubt. Empty: there is no other size, or a first click is
 // clear, or its other meanings are offered, one question at a time. What changed too little to be seen was
 // not too much. before, after: as above.

@@ -356,9 +356,6 @@ void CutJobs::finish(const Order& order, CutRun run, const Flags& labels) {
   const std::string box =
       *before == *labels_now() ? "" : added_by_box(ws_.history, order.object, ws_.context());
   const std::string shared = box + shared_with(ws_.document(), order.object, labels_of_item);
-  const std::string other_way = stroked ? doubt_of_other_way(order.request, *before, *labels_now()) : "";
-  if (!other_way.empty())
-    return ws_.say(Message::Kind::kRefused, fmt::format("{}: {}. But {}", name, changed, other_way));
   const std::string but = !doubt.empty()                                         ? doubt
                           : so_already && changed_little(*before, *labels_now()) ? already
                                                                                  : "";

@@ -180,7 +180,7 @@ Grid grid_of(const cv::Mat& lab, const Image<float>& depth, const cv::Mat& trima
 
 // unary: of a pixel of the rectangle, natural logarithms, > 0 for the object.
 template <class Unary>
-void settle(const Grid& grid, const Unary& unary, MaxFlow* flow, cv::Mat* labels) {
+void solve(const Grid& grid, const Unary& unary, MaxFlow* flow, cv::Mat* labels) {
   for (std::uint32_t n = 0; n < grid.pixel.size(); ++n)
     flow->set_terminal(n,
                        static_cast<std::int64_t>(std::lround(kScale * unary(grid.pixel[n]))) + grid.pull[n]);
@@ -207,7 +207,7 @@ cv::Mat pixel_cut(const Image<Rgb8>& picture, const Image<float>& depth, const M
   MaxFlow flow(grid.graph, grid.capacity);
   for (int i = 0; i < options.iterations; ++i) {
     const ColourModel model(lab, labels);
-    settle(
+    solve(
         grid,
         [&](cv::Point p) { return model.log_ratio(p.x, p.y) + options.prior_weight * side.at<float>(p); },
         &flow, &labels);
@@ -252,7 +252,7 @@ Mask cut_by_odds(const Image<Rgb8>& picture, const Image<float>& depth, const Ma
     }
   const Grid grid = grid_of(lab_of(as_const_mat(picture)(as_rect(rect))), depth, labels, rect, options);
   MaxFlow flow(grid.graph, grid.capacity);
-  settle(
+  solve(
       grid, [&](cv::Point p) { return log_odds.at(rect.x0 + p.x, rect.y0 + p.y); }, &flow, &labels);
   return mask_of(labels, rect, prior);
 }

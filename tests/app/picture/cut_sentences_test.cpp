@@ -57,15 +57,3 @@ TEST_CASE("sentences: of a click that changed the spot around it alone there is 
   result.spot_alone = false;
   CHECK(said(adds, 0, 3).empty());
 }
-
-TEST_CASE("sentences: a click that did more of the other thing is told of, with the way back") {
-  CutRequest adds, removes;
-  adds.strokes = {{{}, {click({5, 5}, SeedLabel::kObject)}, {}}};
-  removes.strokes = {{{}, {click({5, 5}, SeedLabel::kObject), click({9, 9}, SeedLabel::kRest)}, {}}};
-  const std::vector<std::uint8_t> before{1, 1, 1, 0, 0}, fewer{1, 0, 0, 1, 0}, more{1, 1, 0, 1, 1};
-  CHECK(doubt_of_other_way(adds, before, fewer) == "more was taken away than added: Ctrl+Z brings it back");
-  CHECK(doubt_of_other_way(adds, before, more).empty());
-  CHECK(doubt_of_other_way(removes, before, more) == "more was added than taken away: Ctrl+Z undoes it");
-  CHECK(doubt_of_other_way(removes, before, fewer).empty());
-  CHECK(doubt_of_other_way(adds, before, before).empty());
-}
