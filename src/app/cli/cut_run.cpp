@@ -9,6 +9,7 @@
 #include "app/cli/cut_placing.h"
 #include "app/cli/cut_report.h"
 #include "app/console/console.h"
+#include "app/console/labels_file.h"
 #include "app/console/setting_options.h"
 #include "core/atomic_file.h"
 #include "core/error.h"
@@ -78,15 +79,6 @@ std::vector<CutObject> objects_of(const CutArguments& args, const ObjectInput& i
     check_inside(object.request);
   }
   return objects;
-}
-
-// What the numbers of labels and of object_id stand for.
-nlohmann::json object_names(const std::vector<CutObject>& objects) {
-  nlohmann::json names = nlohmann::json::array();
-  for (const CutObject& object : objects)
-    names.push_back(
-        {{"object_id", names.size() + 1}, {"name", object.name.empty() ? "object" : object.name}});
-  return {{"objects", names}};
 }
 
 std::vector<EdgesReport> write_cutouts(const CutoutFolder& to, const std::vector<CutObject>& objects,
@@ -215,8 +207,11 @@ FinishedCut run_cut_in(SharedScene* shared, const CutArguments& args, const Obje
   report.rest = write_rest(to, owner, report.edges, chosen.camera);
   if (report.rest.gaussians == 0) options.warn("the cut takes the whole scene: the rest holds no Gaussians");
   for (const auto& [file, lost] : lost_by_file(report)) options.warn(fmt::format("{}: {}", file, lost));
-  if (args.cutout.writes("objects"))
-    write_text_file(folder.file("objects.json"), json_text(object_names(objects), 2) + "\n");
+  if (args.cutout.writes("objects")) {
+    std::vector<std::string> names;
+    for (const CutObject& object : objects) names.push_back(object.name);
+    write_object_names(folder.file("objects.json"), names);
+  }
   FinishedCut run{report_json(report), summary(report), std::move(objects)};
   run.report["placed"] = {{"origin", args.cutout.origin}, {"up", args.cutout.up}, {"scale", placement.scale}};
   write_text_file(folder.file("report.json"), json_text(run.report, 2) + "\n");

@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
+
 #include "core/atomic_file.h"
 #include "core/error.h"
+#include "core/json_file.h"
 #include "core/mapped_file.h"
 
 namespace splatcut {
@@ -46,6 +49,13 @@ std::vector<std::uint8_t> load_labels(const std::filesystem::path& path, const S
   std::vector<std::uint8_t> labels(scene.cloud.size());
   for (std::size_t g = 0; g < labels.size(); ++g) labels[g] = bytes[scene.cloud.file_row[g]] != 0;
   return labels;
+}
+
+void write_object_names(const std::filesystem::path& path, std::span<const std::string> names) {
+  nlohmann::json objects = nlohmann::json::array();
+  for (const std::string& name : names)
+    objects.push_back({{"object_id", objects.size() + 1}, {"name", name.empty() ? "object" : name}});
+  write_text_file(path, json_text({{"objects", objects}}, 2) + "\n");
 }
 
 }  // namespace splatcut

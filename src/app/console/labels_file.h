@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -21,5 +22,8 @@ void write_labels(const std::filesystem::path& path, const Scene& scene,
 // Of a file of bytes alone: per Gaussian of the scene, 1 where its row has any label. Throws Error for
 // another number of rows.
 std::vector<std::uint8_t> load_labels(const std::filesystem::path& path, const Scene& scene);
+
+// What the numbers of labels and of object_id stand for, as JSON: the objects' names, the first has number 1.
+void write_object_names(const std::filesystem::path& path, std::span<const std::string> names);
 
 }  // namespace splatcut

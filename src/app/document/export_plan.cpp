@@ -3,15 +3,13 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "app/console/kept_inputs.h"
+#include "app/console/labels_file.h"
 #include "app/console/output_folder.h"
 #include "app/document/words.h"
-#include "core/atomic_file.h"
 #include "core/error.h"
-#include "core/json_file.h"
 
 namespace splatcut {
 
@@ -103,10 +101,9 @@ void save_in_one(const std::vector<std::uint8_t>& owner, const std::optional<Sim
   what.object_ids = owner;
   save(request.path, owner, nullptr, {}, to, what, report);
   if (what.job.cancelled()) return;
-  nlohmann::json objects = nlohmann::json::array();
-  for (const ObjectItem& item : what.document.objects)
-    objects.push_back({{"object_id", objects.size() + 1}, {"name", item.name}});
-  write_text_file(names, json_text({{"objects", objects}}, 2) + "\n");
+  std::vector<std::string> objects;
+  for (const ObjectItem& item : what.document.objects) objects.push_back(item.name);
+  write_object_names(names, objects);
 }
 
 }  // namespace
