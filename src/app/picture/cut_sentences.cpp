@@ -48,17 +48,6 @@ std::string why_so_already(const CutRequest& request, const CutResult& result) {
          (result.size + 1 < result.sizes ? ", or press + for a larger part" : "");
 }
 
-std::vector<std::string> doubts_to_show(const CutRequest& request, const CutResult& result) {
-  std::vector<std::string> doubts = doubts_of(result);
-  if (!result.spot_alone) return doubts;
-  const bool adds = last_stroke(request.strokes)->label == SeedLabel::kObject;
-  doubts.front() = std::string("the click changed the spot around it alone: ") +
-                   (result.size + 1 < result.sizes ? "turn the wheel for more"
-                    : adds                         ? "scribble over what is missing"
-                                                   : "scribble with the right button over what is too much");
-  return doubts;
-}
-
 std::string wheel_hint(const CutRequest& request, const CutResult& result,
                        const std::vector<std::uint8_t>& before, const std::vector<std::uint8_t>& after) {
   const bool first = first_stroke(request.strokes) == last_stroke(request.strokes);

@@ -24,9 +24,6 @@ bool changed_little(const std::vector<std::uint8_t>& before, const std::vector<s
 // Of a last click that asks for what is so already: that it does, and what to do for more.
 std::string why_so_already(const CutRequest& request, const CutResult& result);
 
-// As doubts_of(); of a last click that changed the spot around it alone they say what to do here.
-std::vector<std::string> doubts_to_show(const CutRequest& request, const CutResult& result);
-
 // What the wheel does after a click: a hint, no doubt. Empty: there is no other size, or a first click is
 // clear, or its other meanings are offered, one question at a time. What changed too little to be seen was
 // not too much. before, after: as above.

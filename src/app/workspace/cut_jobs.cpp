@@ -234,7 +234,7 @@ CutRun CutJobs::cut_of(const Order& order, const Job& job, const OnSnapshot& on_
   done.total_ms = ms_since(start);
   done.meanings = meanings_of(order.request, *result);
   done.sizes = sizes_of(order.request, *result);
-  done.doubts = doubts_to_show(order.request, *result);
+  done.doubts = doubts_of(*result);
   return done;
 }
 
@@ -362,7 +362,8 @@ void CutJobs::finish(const Order& order, CutRun run, const Flags& labels) {
   const std::string hint =
       ws_.tools.scale_armed() ? wheel_hint(order.request, *result, *before, *labels_now()) : "";
   ws_.say(but.empty() ? Message::Kind::kDone : Message::Kind::kInfo,
-          fmt::format("{}: {}{}{}", name, changed, shared, but.empty() ? hint : ". But " + but));
+          fmt::format("{}: {}{}{}{}", name, changed, shared, but.empty() ? "" : ". But " + but,
+                      but.empty() || result->spot_alone ? hint : ""));
 }
 
 // The first doubt that was not said after the cut before. What is doubted of a click is said each time.

@@ -100,7 +100,7 @@ void CutJobs::renew_views() {
     if (!shown) return;
     take_cards(shown, order, *now, std::move(cards));
     shown->views_labels = now;
-    shown->doubts = as_cut ? doubts_to_show(order.request, *shown->result) : std::vector<std::string>();
+    shown->doubts = as_cut ? doubts_of(*shown->result) : std::vector<std::string>();
     add_doubt_of_sides(shown);
     ++ws_.view_serial;
   };

@@ -64,10 +64,9 @@ std::vector<std::string> doubts(const CutResult& result, double view_agreement) 
 std::vector<std::string> doubts_of(const CutResult& result, double view_agreement) {
   std::vector<std::string> sentences = doubts_of_views(result.views, view_agreement);
   if (result.spot_alone)
-    sentences.insert(
-        sentences.begin(),
-        "the last click changed the spot around it alone, as no part of the scene ends there: take a "
-        "larger size of it, or where two things touch, scribble on both sides of their border");
+    sentences.insert(sentences.begin(),
+                     std::string("the last click changed the spot around it alone") +
+                         (result.size + 1 < result.sizes ? "" : ": scribble over all that is meant"));
   return sentences;
 }
 

@@ -16,8 +16,8 @@ namespace splatcut {
 
 namespace {
 
-constexpr std::size_t kMostKept = 3;  // cuts from a reference: each takes about 20 bytes a Gaussian
-constexpr std::size_t kMostAnswers = 32;
+constexpr std::size_t kMostKept = 3;      // cuts from a reference: each takes about 20 bytes a Gaussian
+constexpr std::size_t kMostAnswers = 32;  // labels of requests and of these without their last strokes
 
 // Times the views used: a correction must win against all that missed it.
 constexpr int kCorrectionWeight = 4;
@@ -290,24 +290,22 @@ CutResult LocalSession::solved(const CutRequest& request, const CutSettings& set
   return result;
 }
 
-void LocalSession::keep_answer(const CutRequest& request, const CutSettings& settings,
-                               const std::vector<std::uint8_t>& labels) {
-  answers_.push_front({key_of(request), settings, labels});
-  if (answers_.size() > kMostAnswers) answers_.pop_back();
+// Moved to the front; null: it is not kept.
+LocalSession::Answer* LocalSession::kept_answer(const CutRequest& request, const CutSettings& settings) {
+  const std::string key = key_of(request);
+  const auto known =
+      std::ranges::find_if(answers_, [&](const Answer& a) { return a.key == key && a.settings == settings; });
+  if (known == answers_.end()) return nullptr;
+  answers_.splice(answers_.begin(), answers_, known);
+  return &answers_.front();
 }
 
 // Of an answer that is kept, or else computed; empty: nothing was found, or it was cancelled.
 std::vector<std::uint8_t> LocalSession::labels_of(const CutRequest& request, const CutSettings& settings,
                                                   const Job& job) {
-  const std::string key = key_of(request);
-  const auto known =
-      std::ranges::find_if(answers_, [&](const Answer& a) { return a.key == key && a.settings == settings; });
-  if (known == answers_.end()) {
-    CutResult result = cut(request, settings, job);
-    return result.outcome == Outcome::kDone ? std::move(result.labels) : std::vector<std::uint8_t>();
-  }
-  answers_.splice(answers_.begin(), answers_, known);
-  return known->labels;
+  if (const Answer* known = kept_answer(request, settings)) return known->labels;
+  CutResult result = cut(request, settings, job);
+  return result.outcome == Outcome::kDone ? std::move(result.labels) : std::vector<std::uint8_t>();
 }
 
 CutResult LocalSession::cut(const CutRequest& request, const CutSettings& settings, const Job& job,
@@ -321,7 +319,8 @@ CutResult LocalSession::cut(const CutRequest& request, const CutSettings& settin
   for (std::size_t g = 0; g < before.size(); ++g)
     if ((result.labels[g] != 0) != last->object) result.labels[g] = before[g];
   obey_strokes(&result);
-  keep_answer(request, settings, result.labels);
+  if (!kept_answer(request, settings)) answers_.push_front({key_of(request), settings, result.labels});
+  if (answers_.size() > kMostAnswers) answers_.pop_back();
   return result;
 }
 

@@ -88,7 +88,7 @@ class LocalSession {
     std::string sums_key;  // masks that `sums` was added up from
     std::optional<MaskedSums> sums;
   };
-  struct Answer {
+  struct Answer {  // the labels of a cut, after step 3
     std::string key;
     CutSettings settings;
     std::vector<std::uint8_t> labels;
@@ -106,9 +106,8 @@ class LocalSession {
   void correct(const Asked& asked, const Job& job, Kept* first, CutResult* result);
   CutResult solved(const CutRequest& request, const CutSettings& settings, const Job& job,
                    const OnSnapshot& on_snapshot);
+  Answer* kept_answer(const CutRequest& request, const CutSettings& settings);
   std::vector<std::uint8_t> labels_of(const CutRequest& request, const CutSettings& settings, const Job& job);
-  void keep_answer(const CutRequest& request, const CutSettings& settings,
-                   const std::vector<std::uint8_t>& labels);
 
   LocalScene scene_;
   std::optional<FlowGraph> graph_;

@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include "segment/masks/seeds.h"
+#include "segment/session/doubts.h"
 
 using namespace splatcut;
 
@@ -38,22 +39,19 @@ TEST_CASE("sentences: after a click the hint says what the wheel does, and puts 
 }
 
 TEST_CASE("sentences: of a click that changed the spot around it alone there is one advice, and it works") {
-  CutRequest adds, removes;
-  adds.strokes = {{{}, {click({5, 5}, SeedLabel::kObject)}, {}}};
-  removes.strokes = {{{}, {click({5, 5}, SeedLabel::kObject), click({9, 9}, SeedLabel::kRest)}, {}}};
+  CutRequest second;
+  second.strokes = {{{}, {click({5, 5}, SeedLabel::kObject), click({9, 9}, SeedLabel::kRest)}, {}}};
+  const std::vector<std::uint8_t> before(1000, 1);
   CutResult result;
   result.spot_alone = true;
-  const auto said = [&](const CutRequest& request, std::size_t size, std::size_t sizes) {
+  const auto said = [&](std::size_t size, std::size_t sizes) {
     result.size = size;
     result.sizes = sizes;
-    const std::vector<std::string> all = doubts_to_show(request, result);
-    return all.empty() ? "" : all.front();
+    return doubts_of(result).front() + wheel_hint(second, result, before, before);
   };
-  CHECK(said(adds, 0, 3) == "the click changed the spot around it alone: turn the wheel for more");
-  CHECK(said(adds, 2, 3) == "the click changed the spot around it alone: scribble over what is missing");
-  CHECK(said(adds, 0, 0) == "the click changed the spot around it alone: scribble over what is missing");
-  CHECK(said(removes, 0, 1) ==
-        "the click changed the spot around it alone: scribble with the right button over what is too much");
+  CHECK(said(0, 3) == "the last click changed the spot around it alone. The wheel takes more");
+  CHECK(said(2, 3) == "the last click changed the spot around it alone: scribble over all that is meant");
+  CHECK(said(0, 0) == "the last click changed the spot around it alone: scribble over all that is meant");
   result.spot_alone = false;
-  CHECK(said(adds, 0, 3).empty());
+  CHECK(doubts_of(result).empty());
 }
