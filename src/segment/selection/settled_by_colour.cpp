@@ -112,6 +112,16 @@ void settle_groups(const Votes& votes, const Image<std::uint32_t>& leaf, const I
   }
 }
 
+// True if the frame cuts the object off: most of the border would be the frame.
+bool cropped(const Mask& object) {
+  constexpr float kMostOnFrame = 0.05f;  // of the frame's pixels
+  const auto on_frame = [&](int x, int y) { return object.at(x, y) == kMaskObject ? 1 : 0; };
+  int on = 0;
+  for (int x = 0; x < object.width(); ++x) on += on_frame(x, 0) + on_frame(x, object.height() - 1);
+  for (int y = 0; y < object.height(); ++y) on += on_frame(0, y) + on_frame(object.width() - 1, y);
+  return static_cast<float>(on) > kMostOnFrame * 2 * static_cast<float>(object.width() + object.height());
+}
+
 // Moves the border of the settled leaves to where the picture has an edge.
 void settle_border(const LeafView& view, const Votes& votes, const Image<std::uint32_t>& leaf,
                    const Image<float>& colour_odds, std::vector<std::uint8_t>* settled) {
@@ -127,6 +137,7 @@ void settle_border(const LeafView& view, const Votes& votes, const Image<std::ui
     odds.pixels()[pixel] = log_odds(std::clamp(share, kLeastShare, 1 - kLeastShare)) +
                            std::clamp(colour_odds.pixels()[pixel], -kMostOdds, kMostOdds);
   }
+  if (cropped(prior)) return;
   const Mask object = cut_by_odds(view.colour, view.depth, prior, odds, edges);
   std::vector<float> inside(settled->size(), 0), all(settled->size(), 0);
   for (std::size_t pixel = 0; pixel < leaf.size(); ++pixel) {

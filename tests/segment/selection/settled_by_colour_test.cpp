@@ -35,6 +35,24 @@ LeafView coloured(const PartHierarchy& parts, const Rgb8& third, bool last_shows
   return view;
 }
 
+// Three stripes 10 pixels below the top of 60 x 30 and so far from its left, on green; the third has that
+// colour, the others are red.
+LeafView on_green(const PartHierarchy& parts, const Rgb8& third, int left) {
+  Camera camera = look_at({0, 0, -10}, {0, 0, 0}, {0, -1, 0}, 1, 60, 30);
+  camera.fx_px = camera.fy_px = 100;
+  Image<std::int32_t> hit(60, 30, -1);
+  Image<Rgb8> colour(60, 30, kLeafGreen);
+  for (int y = 10; y < 20; ++y)
+    for (int x = 0; x < 30; ++x) {
+      hit.at(left + x, y) = x / 10;
+      colour.at(left + x, y) = x < 20 ? kRed : third;
+    }
+  LeafView view = leaf_view_of_hits(parts, camera, hit);
+  for (float& depth : view.depth.pixels()) depth = 1;
+  view.colour = std::move(colour);
+  return view;
+}
+
 // One tree holds the pair alone, the other all, at a cost that is so much higher.
 std::vector<PartMeaning> disagreeing(float dearer) {
   return {{0, kPair, {}, 1}, {1, kAll, {}, 1 + dearer}};
@@ -62,18 +80,22 @@ TEST_CASE("settled by colour: what looks like the rest leaves the object") {
 }
 
 TEST_CASE("settled by colour: the border goes to where the picture has an edge") {
-  // Both trees hold the pair. 100 pixels of the third stripe are rest by ln 9, their colour says nothing:
-  // 220. A border at it crosses 10 rows and 18 diagonals without an edge: 12 (10 + 18 / sqrt 2) = 273. Beyond
-  // it there is one, of colour, where a border costs next to nothing.
+  // Both trees hold the pair, so the third stripe's 100 pixels are rest by ln 9. Of the 800 pixels within
+  // half of the pair's extent 200 are the pair's and 100 the third stripe's, as red: by ln(600 / 100) they
+  // are object, 41 are left for rest. A border at the stripe crosses 10 rows and 18 diagonals without an
+  // edge: 12 (10 + 18 / sqrt 2) = 273. Around the stripes colour has one, where a border costs next to
+  // nothing.
   const PartHierarchy parts = disagreeing_trees();
   const std::vector<PartMeaning> agreed = {{0, kPair, {}, 1}, {1, kPair, {}, 1}};
-  const Labels pair{1, 1, 0, 0};
-  LeafView view = coloured(parts, kRed);
+  const Labels pair{1, 1, 0, 0}, with_third{1, 1, 1, 0};
+  LeafView view = on_green(parts, kRed, 10);
+  CHECK(settled_by_colour(parts, view, agreed, pair) == with_third);
+  CHECK(settled_by_colour(parts, on_green(parts, kLeafGreen, 10), agreed, pair) == pair);
+  for (int y = 0; y < 30; ++y)
+    for (int x = 30; x < 40; ++x) view.depth.at(x, y) = 4;  // behind the pair
   CHECK(settled_by_colour(parts, view, agreed, pair) == pair);
-  for (float& depth : view.depth.pixels()) depth = 1;
-  CHECK(settled_by_colour(parts, view, agreed, pair) == Labels{1, 1, 1, 0});
-  view.colour = coloured(parts, kLeafGreen).colour;
-  CHECK(settled_by_colour(parts, view, agreed, pair) == pair);
+  // 10 of 180 pixels of the frame are the pair's.
+  CHECK(settled_by_colour(parts, on_green(parts, kRed, 0), agreed, pair) == pair);
 }
 
 TEST_CASE("settled by colour: other meanings are no doubts, and nothing is settled without colour") {
