@@ -187,6 +187,12 @@ std::string Studio::why_not(Action action) const {
   return row->why_not ? row->why_not(*this) : "";
 }
 
+Studio::Held& Studio::held_for(const ObjectItem& object) {
+  const std::string& cut = ws_.history.keys(object).cut;
+  if (held_actions_.cut != cut) held_actions_ = {.cut = cut};
+  return held_actions_;
+}
+
 // What needs the object's Gaussians waits for them where they are on their way: of I, H and B the last one.
 bool Studio::hold_for_cut(Action action) {
   const bool frames = action == Action::kFrameObject;
@@ -194,12 +200,25 @@ bool Studio::hold_for_cut(Action action) {
       action == Action::kIsolate || action == Action::kHide || action == Action::kSideBySide;
   const ObjectItem* object = document().active_object();
   if ((!frames && !displays) || !object || !cuts_.comes(*object)) return false;
-  const std::string& cut = ws_.history.keys(*object).cut;
-  if (held_actions_.cut != cut) held_actions_ = {cut, {}, {}};
-  (frames ? held_actions_.frame : held_actions_.display) = action;
-  if (frames) held_actions_.seen_from = camera().goal();
+  Held& held = held_for(*object);
+  (frames ? held.frame : held.display) = action;
+  if (frames) held.seen_from = camera().goal();
   ws_.say(Message::Kind::kInfo, fmt::format("{}: as soon as {} is computed", name_of(action), object->name));
   return true;
+}
+
+// Of several the last one counts. The likeliest is what comes anyway.
+void Studio::choose_meaning(int choice) {
+  if (!clicks_.offer_comes()) {
+    const std::string reason = clicks_.why_not_choose(choice);
+    return reason.empty() ? apply(ChooseMeaning{choice}) : ws_.say(Message::Kind::kInfo, reason);
+  }
+  const ObjectItem& object = *document().active_object();
+  Held& held = held_for(object);
+  held.meaning = choice > 0 ? std::optional(choice) : std::nullopt;
+  ws_.say(Message::Kind::kInfo,
+          choice > 0 ? fmt::format("Meaning {}: as soon as {} is computed", choice + 1, object.name)
+                     : object.name + " gets the likeliest meaning");
 }
 
 // Another stroke, object or step of the history, and Esc, drop what was held.
@@ -207,9 +226,15 @@ void Studio::run_held() {
   if (held_actions_.cut.empty()) return;
   const ObjectItem* object = document().active_object();
   const bool same = object && ws_.history.keys(*object).cut == held_actions_.cut;
-  if (same && cuts_.comes(*object)) return;
+  if (same && (cuts_.comes(*object) || (held_actions_.meaning && clicks_.offer_comes()))) return;
   Held held = std::exchange(held_actions_, {});
   if (!same || gaussians_of(object->id) == 0) return;
+  if (held.meaning) {
+    choose_meaning(*std::exchange(held.meaning, {}));
+    held.cut = ws_.history.keys(*document().active_object()).cut;
+    // What else waits is about what the meaning takes.
+    if (cuts_.comes(*document().active_object())) return void(held_actions_ = std::move(held));
+  }
   if (!(held.seen_from == camera().goal())) held.frame.reset();
   for (const auto& action : {held.display, held.frame})
     if (action) run(*action);
