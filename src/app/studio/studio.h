@@ -100,7 +100,7 @@ class Studio {
   bool settle(double most_seconds);
 
  private:
-  // Asked for while the object's first cut runs, and done when it is there; cut: its key; seen_from: the view
+  // Asked for while the object's cut runs, and done when it is there; cut: its key; seen_from: the view
   // when a frame was asked for, which is not wanted any more once the user has moved that; meaning: number of
   // another one of the click.
   struct Held {
@@ -139,6 +139,7 @@ class Studio {
   Held& held_for(const ObjectItem& object);
   void choose_meaning(int choice);
   void run_held();
+  void frame_object();
   void scale_brush(float factor);
   void step_camera(int direction);
   void hold(const Modifiers& modifiers);

@@ -165,7 +165,7 @@ const Studio::ActionRow* Studio::row_of(Action action) {
       {Action::kRings, without_scene, [](S& s) { s.turn_over(&ViewState::rings); }},
       {Action::kGrid, without_scene, [](S& s) { s.turn_over(&ViewState::grid); }},
       {Action::kBackdrop, without_scene, [](S& s) { s.apply(NextBackdrop{}); }},
-      {Action::kFrameObject, without_anything_to_frame, [](S& s) { s.free_sides_.frame(); }, kWaits},
+      {Action::kFrameObject, without_anything_to_frame, [](S& s) { s.frame_object(); }, kWaits},
       {Action::kFrameScene, without_scene, [](S& s) { s.camera().frame_scene(); }},
       {Action::kOpeningView, without_scene, [](S& s) { s.camera().go_to_opening(); }},
       {Action::kNextCamera, without_cameras, [](S& s) { s.step_camera(1); }},
@@ -236,8 +236,19 @@ void Studio::run_held() {
     if (cuts_.comes(*document().active_object())) return void(held_actions_ = std::move(held));
   }
   if (!(held.seen_from == camera().goal())) held.frame.reset();
+  if (held.frame) free_sides_.forget();  // what it offered was for what the object was before
   for (const auto& action : {held.display, held.frame})
     if (action) run(*action);
+}
+
+// While another cut of it runs, the object is framed as it is, and again as it is then.
+void Studio::frame_object() {
+  free_sides_.frame();
+  const ObjectItem* object = document().active_object();
+  if (viewport_.placing() || !object || !cuts_.comes(*object)) return;
+  Held& held = held_for(*object);
+  held.frame = Action::kFrameObject;
+  held.seen_from = camera().goal();
 }
 
 void Studio::run(Action action) {
