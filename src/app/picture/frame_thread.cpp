@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "core/parallel.h"
 #include "core/stage_clock.h"
 #include "scene/raster/rasterizer.h"
 
@@ -42,12 +43,18 @@ Flags own_flags(const Flags& shown, std::span<const std::uint32_t> stands_for) {
   return make_flags(std::move(set));
 }
 
-std::shared_ptr<Frame> frame_of(const GaussianCloud& cloud, const Camera& camera, const Flags& visible,
-                                const DrawLimits& limits, const Job& job,
-                                const CloudBlocks* blocks = nullptr) {
+// A frame, and the heaviest of the groups in each of its pixels where groups are given.
+struct Drawn {
+  std::shared_ptr<Frame> frame;
+  Image<std::uint32_t> group{};
+};
+
+Drawn drawn(const GaussianCloud& cloud, const Camera& camera, const Flags& visible, const DrawLimits& limits,
+            const Job& job, const CloudBlocks* blocks, std::span<const std::uint32_t> groups) {
   const auto start = std::chrono::steady_clock::now();
   RasterOptions options;
   options.depth = true;
+  options.groups = groups;
   options.blocks = blocks;
   options.near_plane = limits.near_plane;
   options.low_pass_px2 = limits.low_pass_px2;
@@ -61,7 +68,16 @@ std::shared_ptr<Frame> frame_of(const GaussianCloud& cloud, const Camera& camera
   frame->depth = std::move(out.median_depth);
   frame->first_hit = std::move(out.first_hit);
   frame->raster_ms = ms_since(start);
-  return frame;
+  return {std::move(frame), std::move(out.group)};
+}
+
+Drawn drawn_stand_in(const GaussianCloud& cloud, std::span<const std::uint32_t> stands_for,
+                     const Camera& camera, const Flags& shown, const DrawLimits& limits, const Job& job,
+                     std::span<const std::uint32_t> groups) {
+  Drawn made = drawn(cloud, camera, own_flags(shown, stands_for), limits, job, nullptr, groups);
+  for (std::int32_t& hit : made.frame->first_hit.pixels())
+    if (hit >= 0) hit = static_cast<std::int32_t>(stands_for[static_cast<std::size_t>(hit)]);  // none: -1
+  return made;
 }
 
 }  // namespace
@@ -69,27 +85,47 @@ std::shared_ptr<Frame> frame_of(const GaussianCloud& cloud, const Camera& camera
 std::shared_ptr<const Frame> raster_frame(const GaussianCloud& cloud, const Camera& camera,
                                           const Flags& shown, const DrawLimits& limits, const Job& job,
                                           const CloudBlocks* blocks) {
-  return frame_of(cloud, camera, shown, limits, job, blocks);
+  return drawn(cloud, camera, shown, limits, job, blocks, {}).frame;
 }
 
 std::shared_ptr<const Frame> stand_in_frame(const GaussianCloud& cloud,
                                             std::span<const std::uint32_t> stands_for, const Camera& camera,
                                             const Flags& shown, const DrawLimits& limits, const Job& job) {
-  auto frame = frame_of(cloud, camera, own_flags(shown, stands_for), limits, job);
-  for (std::int32_t& hit : frame->first_hit.pixels())
-    if (hit >= 0) hit = static_cast<std::int32_t>(stands_for[static_cast<std::size_t>(hit)]);  // none: -1
-  return frame;
+  return drawn_stand_in(cloud, stands_for, camera, shown, limits, job, {}).frame;
 }
 
 namespace {
 
-std::shared_ptr<const Frame> rastered(const FrameRequest& request, const PaneRequest& pane, const Job& job) {
-  const auto stand_in = [&](const GaussianCloud& cloud, const std::vector<std::uint32_t>& stands_for) {
-    return stand_in_frame(cloud, stands_for, pane.camera, pane.shown, request.limits, job);
-  };
-  if (pane.clean) return stand_in(pane.clean->cloud, pane.clean->gaussian);
-  if (request.coarse && !request.full) return stand_in(request.coarse->cloud, request.coarse->stands_for);
-  return raster_frame(*request.cloud, pane.camera, pane.shown, request.limits, job, request.blocks.get());
+// What a pane is drawn from.
+struct Source {
+  const GaussianCloud& cloud;
+  std::span<const std::uint32_t> stands_for;  // empty: the scene's own rows
+  const CloudBlocks* blocks;
+  std::shared_ptr<const void> held;  // what holds it, by which it is known
+};
+
+Source source_of(const FrameRequest& request, const PaneRequest& pane, bool full) {
+  if (pane.clean) return {pane.clean->cloud, pane.clean->gaussian, nullptr, pane.clean};
+  if (request.coarse && !full)
+    return {request.coarse->cloud, request.coarse->stands_for, nullptr, request.coarse};
+  return {*request.cloud, {}, request.blocks.get(), request.cloud};
+}
+
+Drawn rastered(const Source& from, const FrameRequest& request, const PaneRequest& pane,
+               std::span<const std::uint32_t> groups, const Job& job) {
+  return from.stands_for.empty()
+             ? drawn(from.cloud, pane.camera, pane.shown, request.limits, job, from.blocks, groups)
+             : drawn_stand_in(from.cloud, from.stands_for, pane.camera, pane.shown, request.limits, job,
+                              groups);
+}
+
+std::vector<std::uint32_t> groups_of(const Source& from, const std::vector<std::uint8_t>& owner) {
+  std::vector<std::uint32_t> groups(from.cloud.size());
+  for_each_index(groups.size(), [&](std::size_t i) {
+    const std::size_t g = from.stands_for.empty() ? i : from.stands_for[i];
+    groups[i] = g == kNoGaussian ? 0 : owner[g];
+  });
+  return groups;
 }
 
 // Where any pixel has a number, and as far around as the shading looks.
@@ -104,35 +140,41 @@ PixelRect box_of(const Image<std::uint8_t>& owners) {
           std::min(owners.width(), box.x1 + kAround), std::min(owners.height(), box.y1 + kAround)};
 }
 
-// The object that most of each pixel is of, as masks have it: what shows is one Gaussian of a pixel, which
-// may be a faint one of an object far away.
-std::shared_ptr<const Image<std::uint8_t>> owners_in(const FrameRequest& request, const PaneRequest& pane,
-                                                     const Frame& frame, const Job& job) {
-  const std::vector<std::uint8_t>& owner = *pane.style.owner;
-  auto owners = std::make_shared<Image<std::uint8_t>>(owners_of(frame, pane.style.owner));
-  const PixelRect box = box_of(*owners);
-  if (box.x0 >= box.x1) return owners;
-  const GaussianCloud& cloud = pane.clean ? pane.clean->cloud : *request.cloud;
-  std::vector<std::uint32_t> groups(cloud.size(), 0);
-  for (std::size_t i = 0; i < groups.size(); ++i)
-    if (const std::size_t g = pane.clean ? pane.clean->gaussian[i] : i; g != kNoGaussian)
-      groups[i] = owner[g];
-  const Flags shown = within_far_plane(cloud, pane.camera,
-                                       pane.clean ? own_flags(pane.shown, pane.clean->gaussian) : pane.shown,
-                                       request.limits.far_plane);
+// Of a frame that was drawn without them.
+Image<std::uint32_t> groups_in(const PixelRect& box, const Source& from, const FrameRequest& request,
+                               const PaneRequest& pane, std::span<const std::uint32_t> groups,
+                               const Job& job) {
+  const Flags shown = within_far_plane(
+      from.cloud, pane.camera, from.stands_for.empty() ? pane.shown : own_flags(pane.shown, from.stands_for),
+      request.limits.far_plane);
   RasterOptions options;
   options.colour = false;
   options.groups = groups;
   options.roi = box;
   options.near_plane = request.limits.near_plane;
   options.low_pass_px2 = request.limits.low_pass_px2;
-  if (!pane.clean) options.blocks = request.blocks.get();
+  options.blocks = from.blocks;
   if (shown) options.shown = *shown;
-  const RasterOutput out = rasterize(cloud, pane.camera, options, job);
+  return rasterize(from.cloud, pane.camera, options, job).group;
+}
+
+// The object that most of each pixel is of, as masks have it: what shows is one Gaussian of a pixel, which
+// may be a faint one of an object far away. drawn: the frame's groups; empty: they are drawn where objects
+// show. Null: cancelled.
+std::shared_ptr<const Image<std::uint8_t>> owners_in(const Frame& frame, Image<std::uint32_t> drawn,
+                                                     const Source& from, const FrameRequest& request,
+                                                     const PaneRequest& pane,
+                                                     std::span<const std::uint32_t> groups, const Job& job) {
+  auto owners = std::make_shared<Image<std::uint8_t>>(owners_of(frame, pane.style.owner));
+  const PixelRect box = box_of(*owners);
+  if (box.x0 >= box.x1) return owners;
+  const bool whole = drawn.size() > 0;
+  const glm::ivec2 corner = whole ? glm::ivec2(0) : glm::ivec2(box.x0, box.y0);
+  if (!whole) drawn = groups_in(box, from, request, pane, groups, job);
   if (job.cancelled()) return nullptr;
   for (int y = box.y0; y < box.y1; ++y)
     for (int x = box.x0; x < box.x1; ++x) {
-      const std::uint32_t group = out.group.at(x - box.x0, y - box.y0);
+      const std::uint32_t group = drawn.at(x - corner.x, y - corner.y);
       owners->at(x, y) = group == kNoGroup ? std::uint8_t{0} : static_cast<std::uint8_t>(group);
     }
   return owners;
@@ -191,19 +233,35 @@ std::optional<FrameResult> FrameThread::draw(const FrameRequest& request, const 
     const bool reusable = kept.frame && (kept.full || !request.full) && kept.scene == request.scene &&
                           kept.shown == pane.shown && kept.clean == pane.clean &&
                           kept.limits == request.limits && same_camera(kept.frame->camera, pane.camera);
-    if (!reusable) {
-      auto frame = rastered(request, pane, job);
-      if (job.cancelled()) return std::nullopt;
-      kept = {request.scene, pane.shown,       pane.clean, request.limits,
-              request.full,  std::move(frame), nullptr,    nullptr};
+    const Source from = source_of(request, pane, reusable ? kept.full : request.full);
+    const Flags& owner = pane.style.owner;
+    const bool in_groups = owner && kept.groups_from == from.held && same_set(kept.groups_owner, owner);
+    if (owner && !in_groups) {
+      kept.groups = groups_of(from, *owner);
+      kept.groups_owner = owner;
+      kept.groups_from = from.held;
     }
-    if (kept.full && pane.style.owner && (!kept.owners || !same_set(kept.owner, pane.style.owner))) {
-      kept.owners = owners_in(request, pane, *kept.frame, job);
+    const std::span<const std::uint32_t> groups = owner ? std::span(kept.groups) : std::span<std::uint32_t>();
+    Image<std::uint32_t> group;
+    if (!reusable) {
+      Drawn made = rastered(from, request, pane, groups, job);
       if (job.cancelled()) return std::nullopt;
-      kept.owner = pane.style.owner;
+      kept.scene = request.scene;
+      kept.shown = pane.shown;
+      kept.clean = pane.clean;
+      kept.limits = request.limits;
+      kept.full = request.full;
+      kept.frame = std::move(made.frame);
+      kept.owners = nullptr;
+      group = std::move(made.group);
+    }
+    if (owner && (!kept.owners || !same_set(kept.owner, owner))) {
+      kept.owners = owners_in(*kept.frame, std::move(group), from, request, pane, groups, job);
+      if (job.cancelled()) return std::nullopt;
+      kept.owner = owner;
     }
     result.frames.push_back(kept.frame);
-    result.owners.push_back(pane.style.owner ? kept.owners : nullptr);
+    result.owners.push_back(owner ? kept.owners : nullptr);
     result.pictures.push_back(shaded(*kept.frame, pane.style, result.owners.back().get()));
     result.shown.push_back(pane.shown);
   }

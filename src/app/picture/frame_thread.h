@@ -55,8 +55,7 @@ struct FrameRequest {
 struct FrameResult {
   std::uint64_t scene = 0;                           // FrameRequest::scene
   std::vector<std::shared_ptr<const Frame>> frames;  // one frame per pane
-  // Per pane, of each pixel the number of the object that most of it is of; null: of a reduced picture, or
-  // there are no objects.
+  // Per pane, of each pixel the number of the object that most of it is of; null: there are no objects.
   std::vector<std::shared_ptr<const Image<std::uint8_t>>> owners;
   std::vector<Image<Rgba8>> pictures;  // one picture per pane
   std::vector<Flags> shown;            // PaneRequest::shown of each pane
@@ -96,6 +95,10 @@ class FrameThread {
     std::shared_ptr<const Frame> frame;
     Flags owner;  // what `owners` are of, FrameResult::owners
     std::shared_ptr<const Image<std::uint8_t>> owners;
+    // Number of the object of each Gaussian of what was drawn last: of groups_owner, and of what held it.
+    std::vector<std::uint32_t> groups{};
+    Flags groups_owner{};
+    std::shared_ptr<const void> groups_from{};
   };
   std::vector<Kept> kept_;
   struct Arena;  // TBB arena with a higher priority than other work

@@ -137,15 +137,25 @@ const ClickMeanings* Clicks::offer() const {
   return asks && ws_.view.display == DisplayMode::kWhole && !ws_.view.heat ? offered() : nullptr;
 }
 
-std::string Clicks::why_no_meanings() const {
+// Null: nothing that is or could be offered is declined or hidden by the tool.
+const ObjectItem* Clicks::object_of_offers() const {
   const ObjectItem* object = ws_.document().active_object();
-  if (!object || object->locked || !tool_of(ws_.view.tool).clicks_object || stroke_count(*object) != 1 ||
-      !any_mark(*object) || declined_offer_ == ws_.history.keys(*object).first_click)
-    return {};
-  const ClickMeanings* known = meanings(*object);
-  const bool comes = cuts_.comes(*object) || (!object->cut_kept && !cuts_.run(object->id));
-  if (!known && comes) return "What else the click can mean is shown once " + object->name + " is computed";
-  const bool hidden = offered() && ws_.view.display != DisplayMode::kWhole;
+  const bool may = object && !object->locked && tool_of(ws_.view.tool).clicks_object &&
+                   stroke_count(*object) == 1 && any_mark(*object) &&
+                   declined_offer_ != ws_.history.keys(*object).first_click;
+  return may ? object : nullptr;
+}
+
+bool Clicks::offer_comes() const {
+  const ObjectItem* object = object_of_offers();
+  if (!object || ws_.view.display != DisplayMode::kWhole || ws_.view.heat || offered()) return false;
+  const bool recalled = object->cut && !object->cut_kept && !cuts_.run(object->id) &&
+                        !is_stale(*object, ws_.history.keys(*object).cut);  // of opened work
+  return cuts_.comes(*object) || recalled;
+}
+
+std::string Clicks::why_no_meanings() const {
+  const bool hidden = object_of_offers() && offered() && ws_.view.display != DisplayMode::kWhole;
   return hidden ? "What else the click can mean is shown in the whole scene (Shift+H)" : "";
 }
 
@@ -391,16 +401,13 @@ void Clicks::reset() {
 // the moment what a key does.
 bool Clicks::chooses_by(int key) const {
   if (key < '1' || key >= '1' + kMostMeanings) return false;
-  if (offer()) return true;
-  const ObjectItem* object = ws_.document().active_object();
-  return key > '1' && ws_.view.display == DisplayMode::kWhole && !why_no_meanings().empty() &&
-         cuts_.comes(*object);
+  return offer() || (key > '1' && offer_comes());
 }
 
-std::string Clicks::why_not_choose(int key) const {
+std::string Clicks::why_not_choose(int choice) const {
   const ClickMeanings* offered = offer();
-  if (!offered) return why_no_meanings();
-  if (!chooses_by(key) || key - '1' < std::ssize(offered->outlines)) return {};
+  if (!offered) return "The click has no other meaning. The wheel right after it takes more or less";
+  if (choice < std::ssize(offered->outlines)) return {};
   return "Two meanings are offered: keys 1 and 2. After Esc, 3 is a tool again";
 }
 

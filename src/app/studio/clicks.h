@@ -26,13 +26,13 @@ class Clicks {
   // Meanings of the active object's first click or box, offered until the object gets another stroke or is
   // empty; null: no offer.
   const ClickMeanings* offer() const;
+  bool offer_comes() const;  // true: it is still computed whether there is one
   // Why the key of the tool Click takes no other meaning although its tool is chosen: a sentence; empty: it
   // is not expected to.
   std::string why_no_meanings() const;
-  // True if the key, without others, is for those meanings, not for a tool. why_not_choose(): a refusal if it
-  // takes none, as fewer are offered; else empty.
+  // True if the key, without others, is for those meanings, not for a tool, also where they are to come.
   bool chooses_by(int key) const;
-  std::string why_not_choose(int key) const;
+  std::string why_not_choose(int choice) const;  // refusal if no such meaning is offered; else empty
   bool decline_offer();  // withdraws the offer, also one that is hidden; returns false if none was shown
   // Sizes that the active object's last click can have; null: they are not known, or it has none.
   // size_wanted(): the one that the document asks for, which StrokeSizes::size becomes once it is computed.
@@ -86,6 +86,7 @@ class Clicks {
   bool has_all(const Flags& seen) const;
   const ClickMeanings* meanings(const ObjectItem& object) const;
   const ClickMeanings* offered() const;
+  const ObjectItem* object_of_offers() const;
   std::optional<HoverAsk> hover_wanted() const;
   bool asks_ahead() const;
   bool can_ask() const;

@@ -15,6 +15,7 @@ class FreeSides {
   FreeSides(Workspace& workspace, Viewport& viewport) : ws_(workspace), viewport_(viewport) {}
 
   void frame();
+  void forget() { offer_.reset(); }  // the next frame() takes no side that was offered
 
  private:
   void frame_placed();

@@ -260,6 +260,7 @@ void Studio::perform(const SetView& c) {
   if (c.view.tool != ws_.view.tool) {
     abandon_shape();
     clicks_.decline_offer();  // its keys are those of tools
+    held_actions_.meaning.reset();
   }
   if (c.view.display != ws_.view.display && c.view.display == DisplayMode::kIsolate)
     viewport_.turn_about_object();

@@ -100,6 +100,15 @@ class Studio {
   bool settle(double most_seconds);
 
  private:
+  // Asked for while the object's cut runs, and done when it is there; cut: its key; seen_from: the view
+  // when a frame was asked for, which is not wanted any more once the user has moved that; meaning: number of
+  // another one of the click.
+  struct Held {
+    std::string cut;
+    std::optional<Action> display, frame;
+    CameraPose seen_from{};
+    std::optional<int> meaning;
+  };
   void perform(const ShowFloaters& c);
   void perform(const ShowRange& c);
   void perform(const DrawLarger& c) { cuts_.draw_larger(c.card); }
@@ -127,7 +136,10 @@ class Studio {
   void close_shape();
   void turn_over(bool ViewState::*part);  // switches a setting of the view on or off
   bool hold_for_cut(Action action);
+  Held& held_for(const ObjectItem& object);
+  void choose_meaning(int choice);
   void run_held();
+  void frame_object();
   void scale_brush(float factor);
   void step_camera(int direction);
   void hold(const Modifiers& modifiers);
@@ -158,13 +170,6 @@ class Studio {
   FreeSides free_sides_;
   std::set<int> held_keys_;
   std::vector<std::function<void()>> held_pointer_;
-  // Asked for while the object's first cut runs, and done when it is there; cut: its key; seen_from: the view
-  // when a frame was asked for, which is not wanted any more once the user has moved that.
-  struct Held {
-    std::string cut;
-    std::optional<Action> display, frame;
-    CameraPose seen_from{};
-  };
   Held held_actions_;
   double brush_repeated_s_ = -1e9;
   std::optional<glm::vec2> mouse_px_;         // place of the mouse; none: it is beside the picture

@@ -165,7 +165,7 @@ const Studio::ActionRow* Studio::row_of(Action action) {
       {Action::kRings, without_scene, [](S& s) { s.turn_over(&ViewState::rings); }},
       {Action::kGrid, without_scene, [](S& s) { s.turn_over(&ViewState::grid); }},
       {Action::kBackdrop, without_scene, [](S& s) { s.apply(NextBackdrop{}); }},
-      {Action::kFrameObject, without_anything_to_frame, [](S& s) { s.free_sides_.frame(); }, kWaits},
+      {Action::kFrameObject, without_anything_to_frame, [](S& s) { s.frame_object(); }, kWaits},
       {Action::kFrameScene, without_scene, [](S& s) { s.camera().frame_scene(); }},
       {Action::kOpeningView, without_scene, [](S& s) { s.camera().go_to_opening(); }},
       {Action::kNextCamera, without_cameras, [](S& s) { s.step_camera(1); }},
@@ -187,6 +187,12 @@ std::string Studio::why_not(Action action) const {
   return row->why_not ? row->why_not(*this) : "";
 }
 
+Studio::Held& Studio::held_for(const ObjectItem& object) {
+  const std::string& cut = ws_.history.keys(object).cut;
+  if (held_actions_.cut != cut) held_actions_ = {.cut = cut};
+  return held_actions_;
+}
+
 // What needs the object's Gaussians waits for them where they are on their way: of I, H and B the last one.
 bool Studio::hold_for_cut(Action action) {
   const bool frames = action == Action::kFrameObject;
@@ -194,12 +200,25 @@ bool Studio::hold_for_cut(Action action) {
       action == Action::kIsolate || action == Action::kHide || action == Action::kSideBySide;
   const ObjectItem* object = document().active_object();
   if ((!frames && !displays) || !object || !cuts_.comes(*object)) return false;
-  const std::string& cut = ws_.history.keys(*object).cut;
-  if (held_actions_.cut != cut) held_actions_ = {cut, {}, {}};
-  (frames ? held_actions_.frame : held_actions_.display) = action;
-  if (frames) held_actions_.seen_from = camera().goal();
+  Held& held = held_for(*object);
+  (frames ? held.frame : held.display) = action;
+  if (frames) held.seen_from = camera().goal();
   ws_.say(Message::Kind::kInfo, fmt::format("{}: as soon as {} is computed", name_of(action), object->name));
   return true;
+}
+
+// Of several the last one counts. The likeliest is what comes anyway.
+void Studio::choose_meaning(int choice) {
+  if (!clicks_.offer_comes()) {
+    const std::string reason = clicks_.why_not_choose(choice);
+    return reason.empty() ? apply(ChooseMeaning{choice}) : ws_.say(Message::Kind::kInfo, reason);
+  }
+  const ObjectItem& object = *document().active_object();
+  Held& held = held_for(object);
+  held.meaning = choice > 0 ? std::optional(choice) : std::nullopt;
+  ws_.say(Message::Kind::kInfo,
+          choice > 0 ? fmt::format("Meaning {}: as soon as {} is computed", choice + 1, object.name)
+                     : object.name + " gets the likeliest meaning");
 }
 
 // Another stroke, object or step of the history, and Esc, drop what was held.
@@ -207,12 +226,29 @@ void Studio::run_held() {
   if (held_actions_.cut.empty()) return;
   const ObjectItem* object = document().active_object();
   const bool same = object && ws_.history.keys(*object).cut == held_actions_.cut;
-  if (same && cuts_.comes(*object)) return;
+  if (same && (cuts_.comes(*object) || (held_actions_.meaning && clicks_.offer_comes()))) return;
   Held held = std::exchange(held_actions_, {});
   if (!same || gaussians_of(object->id) == 0) return;
+  if (held.meaning) {
+    choose_meaning(*std::exchange(held.meaning, {}));
+    held.cut = ws_.history.keys(*document().active_object()).cut;
+    // What else waits is about what the meaning takes.
+    if (cuts_.comes(*document().active_object())) return void(held_actions_ = std::move(held));
+  }
   if (!(held.seen_from == camera().goal())) held.frame.reset();
+  if (held.frame) free_sides_.forget();  // what it offered was for what the object was before
   for (const auto& action : {held.display, held.frame})
     if (action) run(*action);
+}
+
+// While another cut of it runs, the object is framed as it is, and again as it is then.
+void Studio::frame_object() {
+  free_sides_.frame();
+  const ObjectItem* object = document().active_object();
+  if (viewport_.placing() || !object || !cuts_.comes(*object)) return;
+  Held& held = held_for(*object);
+  held.frame = Action::kFrameObject;
+  held.seen_from = camera().goal();
 }
 
 void Studio::run(Action action) {

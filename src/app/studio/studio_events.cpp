@@ -26,10 +26,8 @@ void Studio::key_pressed(int code, const Modifiers& modifiers, bool repeated) {
   now.ctrl |= code == key::kLeftControl || code == key::kRightControl;
   now.alt |= code == key::kLeftAlt || code == key::kRightAlt;
   hold(now);
-  if (modifiers == Modifiers{} && clicks_.chooses_by(code)) {
-    const std::string reason = clicks_.why_not_choose(code);
-    return reason.empty() ? apply(ChooseMeaning{code - '1'}) : ws_.say(Message::Kind::kInfo, reason);
-  }
+  if (modifiers == Modifiers{} && (clicks_.chooses_by(code) || (code == '1' && held_actions_.meaning)))
+    return choose_meaning(code - '1');
   const Action action = action_for(code, modifiers);
   if (action == Action::kBrushSmaller || action == Action::kBrushLarger) {
     // A keyboard repeats 30 times a second: the size doubles in one all the same.

@@ -34,7 +34,7 @@ void check_sizes([[maybe_unused]] const GaussianCloud& cloud, [[maybe_unused]] c
   [[maybe_unused]] const auto fits = [&](std::size_t size) { return size == 0 || size == cloud.size(); };
   assert(fits(options.colour_override.size()) && fits(options.labels.size()) && fits(options.shown.size()));
   assert(!options.blocks || options.blocks->gaussians() == cloud.size());
-  assert(options.colour + !options.labels.empty() + !options.groups.empty() + options.list_gaussians <= 1);
+  assert((options.colour || !options.groups.empty()) + !options.labels.empty() + options.list_gaussians <= 1);
   assert(!options.plane_sums ||
          (options.sum_planes.size() == options.plane_sums->planes() &&
           options.sum_planes.size() <= PlaneSums::kMost &&

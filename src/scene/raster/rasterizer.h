@@ -81,7 +81,7 @@ struct RasterOptions {
   std::optional<PixelRect> roi;  // draw these pixels only; outputs have the size of the rectangle
   std::span<const glm::vec3> colour_override;  // size of the cloud: replaces SH colour, >= 0
   std::span<const std::uint8_t> labels;        // size of the cloud, with colour = false: gives label_share
-  std::span<const std::uint32_t> groups;       // size of the cloud, with colour = false: gives group
+  std::span<const std::uint32_t> groups;       // size of the cloud: gives group
   bool list_gaussians = false;                 // with colour = false: gives gaussians
   float least_listed_weight = 0.02f;           // of a pixel, for those two: less does not count
   std::span<const std::uint8_t> shown;         // size of the cloud: 0 leaves the Gaussian out

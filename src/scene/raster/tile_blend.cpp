@@ -67,9 +67,8 @@ bool blend_block(float x0, float y0, int block, const std::int32_t* list, int co
     px[v] = hn::Add(hn::Set(kF, x0), hn::Load(kF, kCentreX + v * kWidth % kBlockPx));
     py[v] = hn::Add(hn::Set(kF, y0), hn::Load(kF, kCentreY + v * kWidth));
     transmittance[v] = hn::Load(kF, &pixels->transmittance[at]);
-    if constexpr (kPaint == Paint::kLabel || kPaint == Paint::kColour)
-      red[v] = hn::Load(kF, &pixels->red[at]);
-    if constexpr (kPaint == Paint::kColour) {
+    if constexpr (kPaint == Paint::kLabel || paints_colour(kPaint)) red[v] = hn::Load(kF, &pixels->red[at]);
+    if constexpr (paints_colour(kPaint)) {
       green[v] = hn::Load(kF, &pixels->green[at]);
       blue[v] = hn::Load(kF, &pixels->blue[at]);
     }
@@ -103,12 +102,12 @@ bool blend_block(float x0, float y0, int block, const std::int32_t* list, int co
       const V after = hn::Sub(before, weight);
       transmittance[v] = after;
       clearest = hn::Max(clearest, after);
-      if constexpr (kPaint == Paint::kGroups)
+      if constexpr (paints_groups(kPaint))
         if (chunk->group[i] >= 0) work->groups.add(begin + v * kWidth, chunk->group[i], weight);
       if constexpr (kPaint == Paint::kGaussians)
         work->listed.add(begin + v * kWidth, gaussian, weight, least_listed);
       if constexpr (kPaint == Paint::kLabel) red[v] = fma(weight, hn::Set(kF, chunk->label[i]), red[v]);
-      if constexpr (kPaint == Paint::kColour) {
+      if constexpr (paints_colour(kPaint)) {
         red[v] = fma(weight, hn::Set(kF, s.red), red[v]);
         green[v] = fma(weight, hn::Set(kF, s.green), green[v]);
         blue[v] = fma(weight, hn::Set(kF, s.blue), blue[v]);
@@ -140,9 +139,8 @@ bool blend_block(float x0, float y0, int block, const std::int32_t* list, int co
   for (int v = 0; v < kVectors; ++v) {
     const int at = begin + v * kWidth;
     hn::Store(transmittance[v], kF, &pixels->transmittance[at]);
-    if constexpr (kPaint == Paint::kLabel || kPaint == Paint::kColour)
-      hn::Store(red[v], kF, &pixels->red[at]);
-    if constexpr (kPaint == Paint::kColour) {
+    if constexpr (kPaint == Paint::kLabel || paints_colour(kPaint)) hn::Store(red[v], kF, &pixels->red[at]);
+    if constexpr (paints_colour(kPaint)) {
       hn::Store(green[v], kF, &pixels->green[at]);
       hn::Store(blue[v], kF, &pixels->blue[at]);
     }
@@ -218,8 +216,8 @@ void draw_tile(const TileBlend& what, int tile, RasterOutput* out) {
   const std::size_t first = grid.first_entry[static_cast<std::size_t>(tile)];
   const TileEntry* entries = grid.entries.data() + first;
   start_pixels(what, tile_x, tile_y, &work.pixels);
-  if constexpr (kPaint == Paint::kGroups) work.groups.clear();
-  if constexpr (kPaint == Paint::kGroups || kPaint == Paint::kGaussians) work.listed.count.fill(0);
+  if constexpr (paints_groups(kPaint)) work.groups.clear();
+  if constexpr (paints_groups(kPaint) || kPaint == Paint::kGaussians) work.listed.count.fill(0);
   const std::span<const std::uint32_t> order = drawn_order(grid, tile, what.shown, &work.sort_space);
   TileLists* lists =
       what.lists && what.shown.empty() ? &(*what.lists)[static_cast<std::size_t>(tile)] : nullptr;
@@ -236,7 +234,7 @@ void draw_tile(const TileBlend& what, int tile, RasterOutput* out) {
   while (done < order.size() && work.pixels.alive != 0) {
     const std::size_t size = std::min<std::size_t>(kChunk, order.size() - done);
     gather(what, entries, order.subspan(done, size), !known, &work.chunk);
-    if constexpr (kPaint == Paint::kGroups) find_groups(what.options.groups, &work.groups, &work.chunk);
+    if constexpr (paints_groups(kPaint)) find_groups(what.options.groups, &work.groups, &work.chunk);
     blend_chunk<kPaint, kDepth, kSums>(tile_x, tile_y, known ? &*known : nullptr, keep_lists, what.options,
                                        &work);
     if constexpr (kSums == Sums::kMask) store_sums(work.chunk, order.data() + done, what.pair_sums + first);
@@ -245,7 +243,7 @@ void draw_tile(const TileBlend& what, int tile, RasterOutput* out) {
   }
   if constexpr (kSums == Sums::kMask)
     for (; done < order.size(); ++done) what.pair_sums[first + order[done]] = {0, 0};
-  if constexpr (kPaint == Paint::kGroups) work.groups.list(what.options.least_listed_weight, &work.listed);
+  if constexpr (paints_groups(kPaint)) work.groups.list(what.options.least_listed_weight, &work.listed);
   store_pixels<kPaint, kDepth>(what, tile_x, tile_y, work.pixels, &work.listed, out);
   if (keep_lists) *lists = {work.found.splat, work.found.count, true};
 }
@@ -259,8 +257,10 @@ DrawTile draw_tile_with(bool depth, bool sums) {
 }
 
 void blend_tiles(const TileBlend& what, const Job& job, RasterOutput* out) {
-  const DrawTile masked = (what.options.colour            ? draw_tile_with<Paint::kColour>
-                           : !what.options.groups.empty() ? draw_tile_with<Paint::kGroups>
+  const bool grouped = !what.options.groups.empty();
+  const DrawTile masked = (what.options.colour && grouped ? draw_tile_with<Paint::kColourAndGroups>
+                           : what.options.colour          ? draw_tile_with<Paint::kColour>
+                           : grouped                      ? draw_tile_with<Paint::kGroups>
                            : what.options.list_gaussians  ? draw_tile_with<Paint::kGaussians>
                            : !what.options.labels.empty()
                                ? draw_tile_with<Paint::kLabel>

@@ -21,7 +21,14 @@ namespace splatcut {
 namespace HWY_NAMESPACE {
 
 // What is summed up per pixel beside the transmittance.
-enum class Paint { kNone, kLabel, kColour, kGroups, kGaussians };
+enum class Paint { kNone, kLabel, kColour, kGroups, kColourAndGroups, kGaussians };
+
+constexpr bool paints_colour(Paint paint) {
+  return paint == Paint::kColour || paint == Paint::kColourAndGroups;
+}
+constexpr bool paints_groups(Paint paint) {
+  return paint == Paint::kGroups || paint == Paint::kColourAndGroups;
+}
 
 // What is summed up per splat.
 enum class Sums { kNone, kMask, kPlanes };
@@ -153,14 +160,14 @@ inline void store_pixels(const TileBlend& what, int tile_x, int tile_y, const Ti
     if (!out.alpha.contains(x, y)) continue;
     const float transmittance = pixels.transmittance[i];
     out.alpha.at(x, y) = 1 - transmittance;
-    if constexpr (kPaint == Paint::kGroups) out.group.at(x, y) = group_of(lists->at(i));
+    if constexpr (paints_groups(kPaint)) out.group.at(x, y) = group_of(lists->at(i));
     if constexpr (kPaint == Paint::kGaussians) {
       const std::span<const GroupWeight> list = lists->at(i);
       const auto at = memory->insert(memory->end(), list.begin(), list.end());  // reserved: nothing moves
       out.gaussians.of.at(x, y) = {at, list.size()};
     }
     if constexpr (kPaint == Paint::kLabel) out.label_share.at(x, y) = pixels.red[i];
-    if constexpr (kPaint == Paint::kColour)
+    if constexpr (paints_colour(kPaint))
       out.colour.at(x, y) =
           glm::vec3(pixels.red[i], pixels.green[i], pixels.blue[i]) + transmittance * what.options.background;
     if constexpr (kDepth) {

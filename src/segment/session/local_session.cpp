@@ -300,12 +300,23 @@ LocalSession::Answer* LocalSession::kept_answer(const CutRequest& request, const
   return &answers_.front();
 }
 
-// Of an answer that is kept, or else computed; empty: nothing was found, or it was cancelled.
+// Of an answer that is kept, or else computed; empty: nothing was found, or it was cancelled. In work that is
+// opened again many are missing: those to ever more strokes are computed, and it is said how far that is.
 std::vector<std::uint8_t> LocalSession::labels_of(const CutRequest& request, const CutSettings& settings,
                                                   const Job& job) {
+  std::vector<CutRequest> missing;  // the one with the most strokes first
+  for (std::optional<CutRequest> next = request; next && !kept_answer(*next, settings);) {
+    missing.push_back(std::move(*next));
+    const std::optional<LastStroke> last = last_correction(missing.back());
+    next = last ? std::optional(last->before) : std::nullopt;
+  }
+  const Job counted{job.stop, {}};
+  for (std::size_t i = missing.size(); i-- > 0 && !job.cancelled();) {
+    job.progress("earlier strokes", 1 - static_cast<double>(i + 1) / static_cast<double>(missing.size()));
+    cut(missing[i], settings, counted);
+  }
   if (const Answer* known = kept_answer(request, settings)) return known->labels;
-  CutResult result = cut(request, settings, job);
-  return result.outcome == Outcome::kDone ? std::move(result.labels) : std::vector<std::uint8_t>();
+  return {};
 }
 
 CutResult LocalSession::cut(const CutRequest& request, const CutSettings& settings, const Job& job,

@@ -204,6 +204,9 @@ std::optional<Session::Answered> Session::place_of_strokes(const CutRequest& req
     if (job.cancelled() || !must_hold) return {};
     if (!there) there = Answered{first_place(strokes[0].camera, *must_hold)};
     if (i + 1 > known) {
+      if (strokes.size() > known + 1)  // of work that is opened again
+        job.progress("what strokes hit",
+                     static_cast<double>(i - known) / static_cast<double>(strokes.size() - known));
       // Another size is one of those where the stroke's own is answered.
       CutRequest own_size = first(i + 1);
       own_size.strokes.back().strokes.back().size_step = 0;

@@ -53,17 +53,24 @@ QUICK_CASE("frame thread",
     cloud->scale[g] = glm::vec3(0.3f);
     cloud->opacity[g] = std::array{0.45f, 0.15f, 0.9f}[g];  // half of the light is gone in the second
   }
-  for (const std::vector<std::uint8_t>& owner : {std::vector<std::uint8_t>{0, 1, 0}, {2, 1, 2}}) {
-    FrameThread thread;
-    FrameRequest request;
-    request.scene = 1;
-    request.cloud = cloud;
-    request.panes = {{camera, nullptr, {}}};
-    request.panes[0].style.owner = make_flags(owner);
-    thread.request(request);
-    std::optional<FrameResult> result;
-    while (!(result = thread.take())) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    REQUIRE(result->frames[0]->first_hit.at(45, 35) == 1);
-    CHECK(result->owners[0]->at(45, 35) == owner[0]);
-  }
+  // A reduced picture, of what stands for the scene's Gaussians, agrees with the full one.
+  const auto coarse = std::make_shared<CoarseCloud>(CoarseCloud{*cloud, {0, 1, 2}});
+  for (const bool full : {true, false})
+    for (const std::vector<std::uint8_t>& owner : {std::vector<std::uint8_t>{0, 1, 0}, {2, 1, 2}}) {
+      CAPTURE(full);
+      FrameThread thread;
+      FrameRequest request;
+      request.scene = 1;
+      request.cloud = cloud;
+      request.coarse = coarse;
+      request.full = full;
+      request.panes = {{camera, nullptr, {}}};
+      request.panes[0].style.owner = make_flags(owner);
+      thread.request(request);
+      std::optional<FrameResult> result;
+      while (!(result = thread.take())) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      REQUIRE(result->frames[0]->first_hit.at(45, 35) == 1);
+      REQUIRE(result->owners[0]);
+      CHECK(result->owners[0]->at(45, 35) == owner[0]);
+    }
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "app/document/words.h"
 #include "hands.h"
 #include "segment/finish/shown_part.h"
 

@@ -158,6 +158,31 @@ TEST_CASE("hands: F that waits for a cut, with I, is dropped where the view was 
   }
 }
 
+TEST_CASE("hands: F pressed while an object is computed frames what comes, as F after that does") {
+  constexpr glm::vec2 kPageOfBook{360, 300};
+  for (const bool other_meaning : {false, true}) {
+    CAPTURE(other_meaning);
+    std::vector<CameraPose> framed;
+    for (const bool hasty : {true, false}) {
+      Hands hands = hands_on_sample(false);
+      const auto wait = [&] { REQUIRE((hasty || hands.app.settle())); };
+      hands.app.click(hands.app.screen_of(kPageOfBook));
+      if (other_meaning) {
+        REQUIRE(hands.app.settle());
+        REQUIRE(hands.studio().clicks().offer());
+        hands.app.key('3');
+      }
+      wait();
+      REQUIRE(hands.studio().cutting() == hasty);
+      hands.app.key('F');
+      REQUIRE(hands.app.settle());
+      framed.push_back(hands.studio().camera().pose());
+    }
+    CHECK(framed[0].distance == doctest::Approx(framed[1].distance).epsilon(0.01));
+    CHECK(glm::distance(framed[0].position_world, framed[1].position_world) < 0.01f * framed[1].distance);
+  }
+}
+
 TEST_CASE("hands: F lets the object fill four fifths of the picture") {
   Hands hands = hands_on_sample();
   hands.app.key('I');  // nothing stands before it

@@ -415,6 +415,11 @@ TEST_CASE("rasterizer: what a pixel gets from each group and each Gaussian is wh
   };
   options.groups = group_of;
   const Image<std::uint32_t> group = rasterize(cloud, camera, options).group;
+  options.colour = true;  // in one pass: the same bits
+  const RasterOutput both = rasterize(cloud, camera, options);
+  CHECK(both.group == group);
+  CHECK(both.colour == rasterize(cloud, camera).colour);
+  options.colour = false;
   options.groups = {};
   options.list_gaussians = true;
   const ListedWeights lists = rasterize(cloud, camera, options).gaussians;

@@ -1,0 +1,54 @@
+// Work that is opened again: its first cut needs the answers to all strokes before the last one.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <string_view>
+#include <vector>
+
+#include "scene/still_life/still_life.h"
+#include "segment/session/session.h"
+
+using namespace splatcut;
+
+TEST_CASE("earlier strokes: their answers are counted while they are computed, kept where that is stopped") {
+  StillLifeOptions options;
+  options.gaussians = 15000;
+  const LabelledScene scene = make_still_life(options);
+  const SessionScene opened{.cloud = std::make_shared<const GaussianCloud>(scene.cloud),
+                            .photographs = scene.cameras};
+  const auto seed = std::ranges::find(scene.seeds, "mug", &LabelledScene::SeedClick::object);
+  REQUIRE(seed != scene.seeds.end());
+  CutRequest request;
+  request.strokes = {{scene.cameras[static_cast<std::size_t>(seed->camera)], {}}};
+  constexpr int kStrokes = 8;
+  for (int i = 0; i < kStrokes; ++i)
+    request.strokes.front().strokes.push_back(click(
+        seed->pixel + static_cast<float>(i % 3) * glm::vec2(9, 0) + static_cast<float>(i) * glm::vec2(0, 3),
+        i % 3 == 2 ? SeedLabel::kRest : SeedLabel::kObject));
+  Session session(opened);
+  std::vector<double> shares, shares_of_hits;
+  std::stop_source stop;
+  Job watched{.stop = stop.get_token(), .on_progress = [&](std::string_view stage, double share) {
+                if (stage == "what strokes hit") shares_of_hits.push_back(share);
+                if (stage == "earlier strokes") shares.push_back(share);
+                if (share >= 0.5 && stage == "earlier strokes") stop.request_stop();
+              }};
+  CHECK(session.cut(request, CutSettings(), watched).outcome == Outcome::kCancelled);
+  CHECK(shares_of_hits.size() == kStrokes);
+  CHECK(std::ranges::is_sorted(shares_of_hits));
+  REQUIRE(shares.size() > 2);
+  CHECK(shares.front() == 0);
+  CHECK(shares.back() < 0.7);
+  CHECK(std::ranges::is_sorted(shares));
+  const std::size_t done = shares.size() - 1;
+  shares.clear();
+  stop = {};
+  watched.stop = {};
+  const CutResult result = session.cut(request, CutSettings(), watched);
+  REQUIRE(result.outcome == Outcome::kDone);
+  CHECK(shares.size() == kStrokes - 1 - done);
+  CHECK(result.labels == Session(opened).cut(request, CutSettings()).labels);
+  shares.clear();
+  session.cut(request, CutSettings(), watched);
+  CHECK(shares.empty());
+}
