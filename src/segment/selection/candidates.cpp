@@ -120,6 +120,10 @@ class Asking {
 
 void Asking::sort() {
   for (Candidate& c : out_.candidates) c.cost = cost_of(c.terms, weights_);
+  constexpr float kMostOtherMeaning = 0.4f;
+  std::erase_if(out_.candidates, [](const Candidate& c) {
+    return weight(c.terms, Term::kAgreed) != 0 && c.cost > kMostOtherMeaning;
+  });
   std::ranges::stable_sort(out_.candidates, {}, &Candidate::cost);
 }
 

@@ -47,8 +47,9 @@
 //   (first_meanings.h). This is a candidate if the first click is the only one on the object and f is at most
 //   1. Of the other terms it has kDoubtful and kScrap.
 // - kAgreed: 1 if what was said first gets the meaning that the trees agree on among those that are left.
-//   This is a candidate where kRepick is none. Of the other terms it has kDoubtful, kDearer, kScrap, kFold,
-//   kGiant, kBorder and kTakes.
+//   This is a candidate where kRepick is none, and if it costs at most 0.4: dearer ones were cheapest at
+//   times, and wrong. Of the other terms it has kDoubtful, kDearer, kScrap, kFold, kGiant, kBorder and
+//   kTakes.
 // - kDoubtful (of these two): AgreedMeaning::doubt of the meanings that are left.
 // - kDearer (of kAgreed, for clicks on the object, and on the rest after a box): what the likeliest meaning
 //   that is left costs more than the likeliest of all.

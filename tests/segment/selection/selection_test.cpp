@@ -93,19 +93,29 @@ TEST_CASE(
   CHECK(after(two_more, {sized(object(5), 1), rest(15)}) == Labels{1, 0, 1, 1});
 }
 
-// Two trees, ((0 1) (2 3)) and ((0 2) (1 3)): without the second stripe, the first click meant the first one
-// alone, or the first and the third.
-TEST_CASE("selection: a rest click takes back what the trees agree that the first click did not mean") {
+namespace {
+
+// Two trees, ((0 1) (2 3)) and ((0 2) (1 3)): without the second stripe, a first click meant the first one
+// alone, or the first and the third. leaf_cut: length of the border of each stripe.
+PartHierarchy first_stripe_or_pair(float leaf_cut) {
   PartHierarchy parts = four_leaves();
-  parts.trees.front().cut = {1, 1, 1, 1, 2, 2, 4};
+  parts.trees.front().cut = {leaf_cut, leaf_cut, leaf_cut, leaf_cut, 2, 2, 4};
   PartTree other = parts.trees.front();
   other.parent = {4, 5, 4, 5, 6, 6, kNoPart};
   other.children[4] = {0, 2};
   other.children[5] = {1, 3};
-  other.cut[4] =
-      1.4f;  // the other tree's vote, for this pair, counts 1; that for the first stripe 1.4 / sqrt(2)
+  other.cut[4] = 1.4f;
+  other.cut[5] = 2 * leaf_cut;
   parts.trees.push_back(other);
   parts.plain_trees = 2;
+  return parts;
+}
+
+}  // namespace
+
+TEST_CASE("selection: a rest click takes back what the trees agree that the first click did not mean") {
+  // The other tree's vote counts 1; that for the first stripe 1.4 / sqrt(2).
+  const PartHierarchy parts = first_stripe_or_pair(1);
   SelectionModel model = borders_alone();
   weight(&model.later, Term::kAgreed) = -50;
   const auto after = [&](float doubtful, const Strokes& strokes) {
@@ -129,6 +139,22 @@ TEST_CASE("selection: a rest click takes back what the trees agree that the firs
   CHECK(after(207, {sized(object(5), 10), rest(15)}) == Labels{1, 0, 1, 1});
   // A click on the third stripe leaves the one tree that has a part for it.
   CHECK(after(1e6f, {sized(object(5), 10), object(25), rest(15)}) == Labels{1, 0, 1, 0});
+}
+
+TEST_CASE("selection: another meaning that is too dear is no answer, though others are dearer") {
+  // The second stripe alone costs ln(e^3) = 3, and with the last one 3.3. After one object click alone the
+  // likeliest part would be asked.
+  const PartHierarchy parts = first_stripe_or_pair(std::exp(3.0f));
+  SelectionModel model = borders_alone();
+  weight(&model.later, Term::kDisc) = 3;
+  const LeafView view = stripes(parts);
+  for (const auto& [cost, expected] :
+       {std::pair{0.35f, Labels{1, 0, 1, 0}}, std::pair{0.45f, Labels{1, 0, 1, 1}}}) {
+    weight(&model.later, Term::kAgreed) = cost;
+    ClickSelection selection(parts, model);
+    for (const Stroke& stroke : {sized(object(5), 10), object(7), rest(15)}) selection.apply(view, stroke);
+    CHECK(selection.labels() == expected);
+  }
 }
 
 TEST_CASE("selection: a second click on the object may say that the first meant what holds both") {
