@@ -374,9 +374,16 @@ void CutJobs::finish(const Order& order, CutRun run, const Flags& labels) {
   const std::string box =
       *before == *labels_now() ? "" : added_by_box(ws_.history, order.object, ws_.context());
   const std::string shared = box + shared_with(ws_.document(), order.object, labels_of_item);
-  const std::string but = !doubt.empty()                                         ? doubt
-                          : so_already && changed_little(*before, *labels_now()) ? already
-                                                                                 : "";
+  const bool little = so_already && changed_little(*before, *labels_now());
+  // What left is no part of the place that was clicked, which shows something else: hovering agrees.
+  const bool beside =
+      last_stroke(order.request.strokes)->label == SeedLabel::kRest && *before != *labels_now();
+  const std::string but = !doubt.empty() ? doubt
+                          : little && beside
+                              ? "that lay beside the place. To remove more, right-click where the "
+                                "outline is red"
+                          : little ? already
+                                   : "";
   const std::string hint =
       ws_.tools.scale_armed() ? wheel_hint(order.request, *result, *before, *labels_now()) : "";
   ws_.say(but.empty() ? Message::Kind::kDone : Message::Kind::kInfo,
