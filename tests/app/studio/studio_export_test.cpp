@@ -167,17 +167,6 @@ TEST_CASE(
   save_scene(alone / "unsaid.ply", unsaid, {}, SceneFormat::kPly);
   other.open(alone / "unsaid.ply");
   REQUIRE(other.settle());
-  CHECK(other.studio().scene()->views().up_is_guess);
-  CHECK_FALSE(guessed());  // the table is a clear ground: nothing is to be asked
-  std::vector<std::uint32_t> apple;
-  for (std::uint32_t g = 0; g < labels.size(); ++g)
-    if (labels[g]) apple.push_back(g);
-  unsaid.cloud = permuted(cloud, apple);
-  unsaid.file_rows = apple.size();
-  for (std::uint32_t i = 0; i < apple.size(); ++i) unsaid.cloud.file_row[i] = i;
-  save_scene(alone / "apple.ply", unsaid, {}, SceneFormat::kPly);
-  other.open(alone / "apple.ply");
-  REQUIRE(other.settle());
   CHECK(guessed());
 }
 
