@@ -168,8 +168,16 @@ Flags changed_by(const Document& document, const AddStroke& stroke, std::vector<
 
 Stroke stroke_of(const AddBox& command, SeedLabel label) {
   Stroke box = box_around(command.a_px, command.b_px, label);
-  if (box_is_too_small(box, command.camera.width_px, command.camera.height_px))
-    throw Error("", "The box is too small", "Drag from one corner to the other");
+  const int width = command.camera.width_px, height = command.camera.height_px;
+  if (box_is_too_small(box, width, height)) {
+    constexpr float kSlipPx = 30;  // a longer drag was meant
+    const glm::vec2 size = box_in_picture(box, width, height).size_px();
+    throw Error("",
+                size.x > kSlipPx   ? "The box is too flat"
+                : size.y > kSlipPx ? "The box is too narrow"
+                                   : "The box is too small",
+                "Drag from one corner to the other");
+  }
   return box;
 }
 
@@ -375,7 +383,7 @@ std::string edit(Document* document, const StepScale& command, const EditContext
   Stroke* last = last_stroke(&object.views);
   if (!last) throw Error("", object.name + " has no clicks on it", "Click on it first");
   last->size_step = std::clamp(last->size_step + command.steps, -kMostSizeSteps, kMostSizeSteps);
-  return fmt::format("A {} part", command.steps > 0 ? "larger" : "smaller");
+  return fmt::format("A {} part is being computed", command.steps > 0 ? "larger" : "smaller");
 }
 
 std::string ChooseMeaning::title(const Document& document) const {

@@ -63,7 +63,9 @@ FileViews views_of(const SceneSource& file, const Scene& scene, std::vector<Came
     return views;
   }
   views.up_is_guess = !scene.up;
-  views.up_world = scene.up ? *scene.up : guessed_up(scene.cloud);
+  const UpGuess guess = scene.up ? UpGuess{*scene.up, true} : up_guess(scene.cloud);
+  views.up_world = guess.up_world;
+  views.up_is_unsure = !guess.sure;
   views.reference = view_of_all(bounds, views.up_world);
   job.progress("choosing the first view", 1);
   views.first_view = better_first_view(scene.cloud, bounds, views.up_world, views.reference, job);
@@ -249,7 +251,7 @@ std::string described(const OpenedScene& opened) {
   if (scene.dropped) text += fmt::format(", {} unusable rows left out", grouped(scene.dropped));
   if (!opened.views().cameras.empty())
     text += fmt::format(", {} cameras (N, P)", opened.views().cameras.size());
-  return text + (opened.views().up_is_guess
+  return text + (opened.views().up_is_unsure
                      ? ". Which way is up is guessed. Does it lean? Set what is up under View"
                      : "");
 }

@@ -42,6 +42,7 @@ struct FileViews {
   std::vector<Camera> cameras;   // capture cameras found beside the file; may be empty
   glm::vec3 up_world{0, -1, 0};  // up direction: as the file says, of the capture, or a guess
   bool up_is_guess = false;      // neither the file nor cameras say it
+  bool up_is_unsure = false;     // it is a guess, and no clear one
   // Guessed start of the window, if there are no cameras and a view of all from outside is a bad start.
   std::optional<Camera> first_view;
   Camera reference;  // start of the window: a capture camera, first_view, or a view of all

@@ -1,6 +1,7 @@
 #include "app/picture/badge_place.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace splatcut {
 
@@ -22,7 +23,21 @@ std::optional<glm::vec2> badge_place(std::span<const glm::vec2> border, std::spa
     farthest = distance;
     best = p;
   }
-  return best;
+  constexpr float kTouches = 24;  // of two badges, 11 points in radius; a click's dot is smaller
+  if (!best || farthest >= kTouches) return best;
+  const auto is_free = [&](const glm::vec2& p) {
+    return within(p, room.min + kMargin, room.max - kMargin) &&
+           !(bar && within(p, room.bar_min - kMargin, room.bar_max + kMargin)) &&
+           std::ranges::all_of(apart, [&](const glm::vec2& q) { return glm::distance(p, q) >= kTouches; });
+  };
+  constexpr int kDirections = 16;
+  for (const float away : {1.0f, 1.5f, 2.0f})
+    for (int i = 0; i < kDirections; ++i) {
+      const float angle = 6.2831853f * static_cast<float>(i) / kDirections;
+      const glm::vec2 beside = *best + away * kTouches * glm::vec2(std::cos(angle), std::sin(angle));
+      if (is_free(beside)) return beside;
+    }
+  return {};
 }
 
 }  // namespace splatcut

@@ -13,8 +13,8 @@ struct BadgeRoom {
   glm::vec2 bar_min{0}, bar_max{0};  // it lies beside this rectangle; none where both are equal
 };
 
-// The point of the border that is farthest from all in `apart`, the first of those that are far enough; none:
-// the room holds no point of the border.
+// The point of the border that is farthest from all in `apart`, the first of those that are far enough. Where
+// a badge would touch another on all of a tiny border, a place beside it. None: the room holds no such place.
 std::optional<glm::vec2> badge_place(std::span<const glm::vec2> border, std::span<const glm::vec2> apart,
                                      const BadgeRoom& room);
 

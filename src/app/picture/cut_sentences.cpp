@@ -48,6 +48,21 @@ std::string why_so_already(const CutRequest& request, const CutResult& result) {
          (result.size + 1 < result.sizes ? ", or press + for a larger part" : "");
 }
 
+std::string why_no_larger(std::size_t sizes, bool first_stroke, std::size_t taken, std::size_t all) {
+  constexpr double kNearlyAll = 0.95;
+  const bool whole = static_cast<double>(taken) > kNearlyAll * static_cast<double>(all);
+  return fmt::format("This is the largest of {} sizes{}", sizes,
+                     whole          ? ": nearly the whole scene is taken. Page Down takes less"
+                     : first_stroke ? "; a box (4) may find more"
+                                    : "");
+}
+
+std::string leap_of_size(std::size_t was, std::size_t is) {
+  constexpr std::size_t kLeap = 4;  // times as many Gaussians, or that part of them
+  if (is <= kLeap * was && was <= kLeap * is) return {};
+  return "; no size between was found: a box (4) around the thing, or clicks, find it";
+}
+
 std::string wheel_hint(const CutRequest& request, const CutResult& result,
                        const std::vector<std::uint8_t>& before, const std::vector<std::uint8_t>& after) {
   const bool first = first_stroke(request.strokes) == last_stroke(request.strokes);

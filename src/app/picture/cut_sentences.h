@@ -24,6 +24,14 @@ bool changed_little(const std::vector<std::uint8_t>& before, const std::vector<s
 // Of a last click that asks for what is so already: that it does, and what to do for more.
 std::string why_so_already(const CutRequest& request, const CutResult& result);
 
+// That there is no larger size, and what may take more: nothing where nearly all is taken. taken, all: of the
+// scene's Gaussians.
+std::string why_no_larger(std::size_t sizes, bool first_stroke, std::size_t taken, std::size_t all);
+
+// Of a step to the next size, from so many Gaussians to so many: that it is a leap, and what finds something
+// between; empty: it is none.
+std::string leap_of_size(std::size_t was, std::size_t is);
+
 // What the wheel does after a click: a hint, no doubt. Empty: there is no other size, or a first click is
 // clear, or its other meanings are offered, one question at a time. What changed too little to be seen was
 // not too much. before, after: as above.

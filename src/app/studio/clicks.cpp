@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "app/document/selection.h"
+#include "app/picture/cut_sentences.h"
 #include "core/error.h"
 #include "scene/raster/rasterizer.h"
 
@@ -176,8 +177,8 @@ std::string Clicks::why_not_step(int steps) const {
   const std::size_t size = size_wanted(), last = known->count() - 1;
   if (last == 0) return "The click means one size alone";
   if (steps > 0 && size >= last)
-    return fmt::format("This is the largest of {} sizes{}", known->count(),
-                       stroke_count(*object) == 1 ? "; a box (4) may find more" : "");
+    return why_no_larger(known->count(), stroke_count(*object) == 1, ws_.gaussians_of(object->id),
+                         ws_.gaussians());
   if (steps < 0 && size == 0) return fmt::format("This is the smallest of {} sizes", known->count());
   return {};
 }
@@ -263,10 +264,18 @@ std::optional<Clicks::HoverAsk> Clicks::hover_wanted() const {
                   hit->gaussian};
 }
 
+// True from a change of the display or the background until the pointer moves: one looks at the picture.
+bool Clicks::looks_only() {
+  const Look look{ws_.view.display, ws_.view.checker, ws_.document().background};
+  if (std::exchange(look_, look) != look) looks_only_px_ = ws_.tools.pointer_px();
+  if (looks_only_px_ != ws_.tools.pointer_px()) looks_only_px_.reset();
+  return looks_only_px_.has_value();
+}
+
 // Outlines what a click would change: outside of the object a click that adds, on it one that removes. The
 // worker does what the click would; the newest place is asked for once it is free.
 void Clicks::refresh_hover() {
-  const std::optional<HoverAsk> ask = hover_wanted();
+  const std::optional<HoverAsk> ask = looks_only() ? std::nullopt : hover_wanted();
   if (!ask) {
     if (hover_) show_hover(nullptr, false);
     hover_.reset();

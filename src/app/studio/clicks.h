@@ -92,6 +92,7 @@ class Clicks {
   bool can_ask() const;
   bool on_last_dot() const;  // the pointer is on the dot of the object's last stroke
   void refresh_hover();
+  bool looks_only();
   void ask_by_colour(const HoverAsk& ask);
   void make_ready();
   void leave_what_came();
@@ -104,14 +105,23 @@ class Clicks {
   Viewport& viewport_;
   CutJobs& cuts_;
   Edits& edits_;
+  // Part of the view whose change ends outlines of hovering until the pointer moves.
+  struct Look {
+    DisplayMode display = DisplayMode::kWhole;
+    bool checker = false;
+    glm::vec3 background{0};
+    friend bool operator==(const Look&, const Look&) = default;
+  };
   // What a click would leave to others, the same for every place of the picture.
   struct HoverLeft {
     std::uint64_t document = 0;  // serial of the document
     Flags left;
   };
   HoverLeft hover_left_;
-  std::optional<HoverAsk> hover_;  // question that was asked last; its answer may be shown already
-  double outlined_s_ = 0;          // clock time at which what it outlines was last shown or taken away
+  std::optional<HoverAsk> hover_;           // question that was asked last; its answer may be shown already
+  Look look_;                               // at the last update()
+  std::optional<glm::vec2> looks_only_px_;  // pointer since look_ changed; none: it moved
+  double outlined_s_ = 0;  // clock time at which what it outlines was last shown or taken away
   Ready ready_;
   std::string declined_offer_;   // ClickMeanings::key of the offer that was declined last
   double stepped_s_ = -1e9;      // clock time of the last choice of a size, or click that found some

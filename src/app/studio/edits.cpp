@@ -60,8 +60,10 @@ void Edits::push(std::string title, Document after, std::string merge_key, const
   if (!ws_.history.push(std::move(title), std::move(after), std::move(merge_key)))
     return ws_.say(Message::Kind::kInfo, message);
   // Asking again for what was cancelled means that it is wanted now.
-  if (const ObjectItem* active = ws_.document().active_object()) cuts_.want_again(*active);
-  ws_.say(Message::Kind::kDone, message);
+  const ObjectItem* active = ws_.document().active_object();
+  if (active) cuts_.want_again(*active);
+  const bool comes = active && cuts_.comes(*active);  // it is done once the cut is
+  ws_.say(comes ? Message::Kind::kInfo : Message::Kind::kDone, message);
 }
 
 std::uint64_t Edits::begin() {

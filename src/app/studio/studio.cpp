@@ -256,6 +256,16 @@ void Studio::perform(const SetUp& c) {
   camera().set_up(document().up_world);
 }
 
+// "Click what belongs to it" is said: a tool with which a click does nothing to an object gives way.
+void Studio::perform(const NewObject& c) {
+  edits_.perform_plain(c);
+  const Tool& tool = tool_of(ws_.view.tool);
+  if (tool.strokes || tool.clicks_object || tool.selects != Tool::Selects::kNothing) return;
+  ViewState view = ws_.view;
+  view.tool = Tool::kClick;
+  perform(SetView{view});
+}
+
 void Studio::perform(const SetView& c) {
   if (c.view.tool != ws_.view.tool) {
     abandon_shape();

@@ -118,6 +118,7 @@ class Studio {
   void perform(const Redo&);
   void perform(const Recompute&);
   void perform(const SetUp& c);
+  void perform(const NewObject& c);
   void perform(const SetView& c);
   void perform(const GoToCamera& c);
   void perform(const SetFieldOfView& c);

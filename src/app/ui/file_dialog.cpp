@@ -158,11 +158,16 @@ void places(UiContext& ui, float height) {
   if (ui.studio.scene())
     all.emplace_back("Scene", std::filesystem::absolute(ui.studio.scene()->scene->path).parent_path());
   const std::size_t fixed = all.size();
-  for (const std::filesystem::path& recent : ui.state.recent) {
-    const std::filesystem::path folder = recent.parent_path();
+  for (const std::filesystem::path& file : ui.state.recent) {
+    const std::filesystem::path folder = file.parent_path();
     const bool known = std::ranges::any_of(all, [&](const auto& p) { return p.second == folder; });
-    if (!known) all.emplace_back(folder.filename().string(), folder);
+    std::error_code ignored;
+    if (!known && std::filesystem::is_directory(folder, ignored)) all.emplace_back("", folder);
   }
+  std::vector<std::filesystem::path> recent;
+  for (std::size_t i = fixed; i < all.size(); ++i) recent.push_back(all[i].second);
+  const std::vector<std::string> names = names_of_folders(recent);
+  for (std::size_t i = fixed; i < all.size(); ++i) all[i].first = names[i - fixed];
   for (std::size_t i = 0; i < all.size(); ++i) {
     std::error_code ignored;
     if (!std::filesystem::is_directory(all[i].second, ignored)) continue;

@@ -14,10 +14,27 @@ namespace splatcut {
 
 namespace {
 
+// Whether the next row, that high, is within the page: one that would be cut leaves its room empty.
+bool shows_whole(float height) {
+  const float from = ImGui::GetCursorScreenPos().y - ImGui::GetWindowPos().y;
+  constexpr float kRounding = 0.5f;
+  if (from >= -kRounding && from + height <= ImGui::GetWindowHeight() + kRounding) return true;
+  ImGui::Dummy({1, height});
+  return false;
+}
+
+void note_row(UiContext& ui, const ImVec2& from) {
+  ui.state.items.push_back(
+      {"row of keys", {from.x, from.y}, {ImGui::GetItemRectMax().x, ImGui::GetItemRectMax().y}});
+}
+
 void heading(UiContext& ui, const char* text) {
+  if (!shows_whole(ui.theme.strong->FontSize * ImGui::GetIO().FontGlobalScale)) return;
+  const ImVec2 from = ImGui::GetCursorScreenPos();
   ImGui::PushFont(ui.theme.strong);
   ImGui::TextColored(ui.theme.colour.accent, "%s", text);
   ImGui::PopFont();
+  note_row(ui, from);
 }
 
 // Keys of one heading; all keys of an action are on its first row.
@@ -28,21 +45,36 @@ void key_group(UiContext& ui, const char* group) {
     if (b.action == before || std::strcmp(b.group, group) != 0) continue;
     before = b.action;
     const float left = ImGui::GetCursorPosX();
+    const float room = ImGui::GetColumnWidth() - 24 - keys_width();
+    if (!shows_whole(ImGui::CalcTextSize(b.what, nullptr, false, std::max(1.0f, room)).y)) continue;
+    const ImVec2 from = ImGui::GetCursorScreenPos();
     ImGui::TextUnformatted(keys_of(b.action).c_str());
     ImGui::SameLine();
     ImGui::SetCursorPosX(left + keys_width());
     ImGui::PushTextWrapPos(left + ImGui::GetColumnWidth() - 24);
     muted_text(ui, b.what);
     ImGui::PopTextWrapPos();
+    note_row(ui, from);
   }
   ImGui::Dummy({0, 6});
 }
 
 void pointer_help(UiContext& ui) {
   heading(ui, "Pointer");
-  ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + ImGui::GetColumnWidth() - 24);
-  muted_text(ui, pointer_words());
-  ImGui::PopTextWrapPos();
+  const std::string words = pointer_words();
+  const float room = std::max(1.0f, ImGui::GetColumnWidth() - 24);
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ImGui::GetStyle().ItemSpacing.x, 0});
+  for (const char *at = words.data(), *end = at + words.size(); at < end;) {
+    const char* line = ImGui::GetFont()->CalcWordWrapPositionA(ImGui::GetIO().FontGlobalScale, at, end, room);
+    if (line == at) ++line;  // no room for a letter
+    if (shows_whole(ImGui::GetTextLineHeight())) {
+      const ImVec2 from = ImGui::GetCursorScreenPos();
+      muted_text(ui, std::string(at, line));
+      note_row(ui, from);
+    }
+    for (at = line; at < end && *at == ' ';) ++at;
+  }
+  ImGui::PopStyleVar();
 }
 
 // Of the window in which nothing else takes these keys.

@@ -44,6 +44,13 @@ ImU32 packed(const ImVec4& colour, float alpha) {
   return ImGui::ColorConvertFloat4ToU32({colour.x, colour.y, colour.z, colour.w * alpha});
 }
 
+ImU32 ink_on(const ImVec4& ground) {
+  // The relative luminance of WCAG 2, gamma taken as 2.2; black and white contrast alike on .18.
+  const auto linear = [](float c) { return std::pow(c, 2.2f); };
+  const float light = 0.2126f * linear(ground.x) + 0.7152f * linear(ground.y) + 0.0722f * linear(ground.z);
+  return light > 0.18f ? 0xff000000u : 0xffffffffu;
+}
+
 void load_fonts(Theme* theme, float pixels_per_point) {
   theme->pixels_per_point = pixels_per_point;
   ImGuiIO& io = ImGui::GetIO();

@@ -26,6 +26,9 @@ void load_fonts(Theme* theme, float pixels_per_point);
 // Colours and spacing of the current ImGui context.
 void apply_theme(Theme* theme, bool dark);
 
+// Black or white, whichever is read better on that colour.
+ImU32 ink_on(const ImVec4& ground);
+
 ImU32 packed(const ImVec4& colour, float alpha = 1);
 
 inline ImVec2 vec(const glm::vec2& v) {

@@ -87,7 +87,7 @@ void card(UiContext& ui, const CutRun& run, const ObjectItem& object, const View
     const ImVec2 middle = {at.x + 12, at.y + 12};
     const ImVec2 mark = ImGui::CalcTextSize("?");
     list.AddCircleFilled(middle, 9, packed(ui.theme.colour.warn));
-    list.AddText({middle.x - 0.5f * mark.x, middle.y - 0.5f * mark.y}, 0xff000000u, "?");
+    list.AddText({middle.x - 0.5f * mark.x, middle.y - 0.5f * mark.y}, ink_on(ui.theme.colour.warn), "?");
   }
   const bool left_out =
       std::ranges::any_of(object.left_out, [&](const Camera& v) { return same_view(v, c.camera); });

@@ -122,4 +122,24 @@ void FileBrowser::type(const std::string& letter, double now_s) {
   if (found != entries.end()) go(static_cast<int>(found - entries.begin()));
 }
 
+std::vector<std::string> names_of_folders(const std::vector<std::filesystem::path>& folders) {
+  std::vector<std::string> names;
+  for (const std::filesystem::path& folder : folders) {
+    std::string name = folder.filename().string();
+    std::filesystem::path within = folder.parent_path();
+    const auto alike = [&](const std::filesystem::path& other) {
+      return other != folder && other.filename() == folder.filename();
+    };
+    const auto beside = [&](const std::filesystem::path& other) {
+      return alike(other) && other.parent_path().filename() == within.filename();
+    };
+    if (std::ranges::any_of(folders, beside))
+      name += " (" + within.parent_path().filename().string() + "/" + within.filename().string() + ")";
+    else if (std::ranges::any_of(folders, alike))
+      name += " (" + within.filename().string() + ")";
+    names.push_back(std::move(name));
+  }
+  return names;
+}
+
 }  // namespace splatcut

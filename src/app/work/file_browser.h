@@ -52,4 +52,8 @@ struct FileBrowser {
   void type(const std::string& letter, double now_s);
 };
 
+// What folders are called in a list: by their names, those of one name with that of the folder that they are
+// in.
+std::vector<std::string> names_of_folders(const std::vector<std::filesystem::path>& folders);
+
 }  // namespace splatcut

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdlib>
 
 #include "app/document/words.h"
 #include "app/picture/cut_pictures.h"
@@ -312,6 +313,22 @@ Flags CutJobs::labels_before(const Order& order, const Flags& shown) const {
                           : std::vector<std::uint8_t>(ws_.gaussians(), 0));
 }
 
+// What is said where the last step, one to the next size, took quite another extent. Not where the step
+// before was not computed: there may be sizes between.
+std::string CutJobs::leap_to(ObjectId object, const CutResult& result) const {
+  const History& history = ws_.history;
+  if (history.left() || !history.can_undo()) return {};
+  const Document& last = history.entries()[history.cursor() - 1].document;
+  const ObjectItem *was = last.find(object), *is = history.now().find(object);
+  if (!was || !was->cut || is_stale(last, *was)) return {};
+  const Stroke *stroke_then = last_stroke(was->views), *stroke = last_stroke(is->views);
+  const std::string& title = history.entries()[history.cursor()].title;
+  const bool stepped = title == StepScale{1}.title() || title == StepScale{-1}.title();
+  if (!stepped || !stroke_then || !stroke || std::abs(stroke->size_step - stroke_then->size_step) != 1)
+    return {};
+  return leap_of_size(count_flags(*was->cut), count_flags(result.labels));
+}
+
 void CutJobs::finish(const Order& order, CutRun run, const Flags& labels) {
   if (!runs(order)) return;
   const CutRun& now = running_->run;
@@ -333,6 +350,7 @@ void CutJobs::finish(const Order& order, CutRun run, const Flags& labels) {
     return item ? labels_of_item(*item) : nullptr;
   };
   const Flags shown = labels_now();
+  const std::string leap = shown ? leap_to(order.object, *result) : "";
   const bool cut_already = shown && !is_stale(*ws_.document().find(order.object), order.key);
   ws_.history.set_cut(order.object, order.key, labels);
   keep({order.object, std::move(run)});
@@ -356,13 +374,20 @@ void CutJobs::finish(const Order& order, CutRun run, const Flags& labels) {
   const std::string box =
       *before == *labels_now() ? "" : added_by_box(ws_.history, order.object, ws_.context());
   const std::string shared = box + shared_with(ws_.document(), order.object, labels_of_item);
-  const std::string but = !doubt.empty()                                         ? doubt
-                          : so_already && changed_little(*before, *labels_now()) ? already
-                                                                                 : "";
+  const bool little = so_already && changed_little(*before, *labels_now());
+  // What left is no part of the place that was clicked, which shows something else: hovering agrees.
+  const bool beside =
+      last_stroke(order.request.strokes)->label == SeedLabel::kRest && *before != *labels_now();
+  const std::string but = !doubt.empty() ? doubt
+                          : little && beside
+                              ? "that lay beside the place. To remove more, right-click where the "
+                                "outline is red"
+                          : little ? already
+                                   : "";
   const std::string hint =
       ws_.tools.scale_armed() ? wheel_hint(order.request, *result, *before, *labels_now()) : "";
   ws_.say(but.empty() ? Message::Kind::kDone : Message::Kind::kInfo,
-          fmt::format("{}: {}{}{}{}", name, changed, shared, but.empty() ? "" : ". But " + but,
+          fmt::format("{}: {}{}{}{}{}", name, changed, leap, shared, but.empty() ? "" : ". But " + but,
                       but.empty() || result->spot_alone ? hint : ""));
 }
 

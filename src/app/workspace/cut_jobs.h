@@ -88,6 +88,7 @@ class CutJobs {
   void finish(const Order& order, CutRun run, const Flags& labels);
   void show_views(const Order& order, std::vector<ViewCard> cards);
   void end(const std::string& given_up);
+  std::string leap_to(ObjectId object, const CutResult& result) const;
   std::string doubt_to_say(ObjectId object, const CutRun& run);
   void request_likelihood();
   void recall();

@@ -154,24 +154,37 @@ std::optional<bool> stands(const GaussianCloud& cloud) {
   return evidence > 0;
 }
 
-glm::vec3 guessed_up(const GaussianCloud& cloud) {
+UpGuess up_guess(const GaussianCloud& cloud) {
   glm::vec3 best(0, -1, 0);
   const std::vector<Disc> discs = sampled_discs(cloud);
-  if (discs.empty()) return best;
-  double best_score = prior_of(best);
+  if (discs.empty()) return {best, false};
+  double best_score = prior_of(best), next_score = 0, best_ground = 0;
   for (int axis = 0; axis < 3; ++axis) {
     const Slabs slabs = slabs_along(discs, axis);
     for (const float sign : {-1.0f, 1.0f}) {
       glm::vec3 up(0);
       up[axis] = sign;
-      const double score = prior_of(up) + slabs.flat * ground_score(slabs, sign > 0);
-      if (score > best_score) best_score = score, best = up;
+      const double ground = slabs.flat * ground_score(slabs, sign > 0), score = prior_of(up) + ground;
+      if (up == best) best_ground = ground;
+      if (score > best_score) {
+        if (up != best) next_score = std::max(next_score, best_score);
+        best_score = score, best = up, best_ground = ground;
+      } else if (up != best) {
+        next_score = std::max(next_score, score);
+      }
     }
   }
   // Aligned by a program, a scene is exactly level, which the plane is not.
   constexpr float kLevel = 0.9986f;  // cosine of 3 degrees
   const std::optional<glm::vec3> ground = ground_normal(cloud, best);
-  return ground && glm::dot(*ground, best) < kLevel ? *ground : best;
+  constexpr double kGroundThere = 0.035;  // see prior_of()
+  constexpr double kClear = 2;            // times the score of any other direction; a wrong one had 1.75
+  const bool sure = ground && best_ground > kGroundThere && best_score > kClear * next_score;
+  return {ground && glm::dot(*ground, best) < kLevel ? *ground : best, sure};
+}
+
+glm::vec3 guessed_up(const GaussianCloud& cloud) {
+  return up_guess(cloud).up_world;
 }
 
 }  // namespace splatcut

@@ -23,7 +23,11 @@
 
 namespace splatcut {
 
-// Unit vector. (0, -1, 0) where nothing speaks for another.
+struct UpGuess {
+  glm::vec3 up_world{0, -1, 0};  // unit vector; this one where nothing speaks for another
+  bool sure = false;             // a ground there is a plane, and scores twice what any other direction does
+};
+UpGuess up_guess(const GaussianCloud& cloud);
 glm::vec3 guessed_up(const GaussianCloud& cloud);
 
 // Whether the scene stands, -y up, or is on its head: things stand wide and with most of their surface low.

@@ -29,3 +29,20 @@ TEST_CASE("badges: beside the bar, within the picture, far from each other") {
   CHECK_FALSE(badge_place(under, {}, room));
   CHECK(badge_place(under, {}, BadgeRoom{{0, 0}, {600, 500}}));
 }
+
+TEST_CASE(
+    "badges: on outlines that are smaller than a badge they lie beside, apart from each other and the dot") {
+  std::vector<glm::vec2> border;
+  for (int i = 0; i < 8; ++i) border.emplace_back(300 + i % 3, 250 + i / 3);
+  const BadgeRoom room{{0, 0}, {600, 500}};
+  const glm::vec2 dot(301, 251);
+  std::vector<glm::vec2> apart{dot};
+  for (int badge = 0; badge < 2; ++badge) {
+    const auto place = badge_place(border, apart, room);
+    REQUIRE(place);
+    for (const glm::vec2& other : apart) CHECK(glm::distance(*place, other) >= 23);
+    CHECK(glm::distance(*place, dot) < 60);
+    apart.push_back(*place);
+  }
+  CHECK_FALSE(badge_place(border, apart, BadgeRoom{{280, 230}, {320, 270}}));  // there is room for one alone
+}

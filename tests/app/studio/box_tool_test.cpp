@@ -163,7 +163,7 @@ TEST_CASE("hands: a box that reaches out of the picture is around what of it is 
   const Camera camera = hands.studio().viewport().pane_camera();
   const auto width = static_cast<float>(camera.width_px);
   hands.studio().apply(AddBox{camera, {width - 3, 60}, {width + 300, 200}});
-  CHECK(hands.said().starts_with("The box is too small"));
+  CHECK(hands.said().starts_with("The box is too narrow"));
   CHECK(hands.studio().document().objects.empty());
   hands.studio().apply(AddBox{camera, {width - 40, 60}, {width + 300, 200}});
   const ObjectItem* object = hands.studio().document().active_object();

@@ -259,3 +259,12 @@ TEST_CASE("hands: Tab goes from the path to the list of files, and Enter opens w
   REQUIRE(app.studio().scene());
   CHECK(app.studio().scene()->scene->path.filename() == "beta.compressed.ply");
 }
+
+TEST_CASE("dialogs: places of one name are told apart by the folders that they are in") {
+  using Names = std::vector<std::string>;
+  CHECK(names_of_folders({"/a/bank2/scenes", "/a/bank3/scenes", "/a/other"}) ==
+        Names{"scenes (bank2)", "scenes (bank3)", "other"});
+  CHECK(names_of_folders({"/a/one/bank/scenes", "/a/two/bank/scenes"}) ==
+        Names{"scenes (one/bank)", "scenes (two/bank)"});
+  CHECK(names_of_folders({"/a/scenes"}) == Names{"scenes"});
+}
