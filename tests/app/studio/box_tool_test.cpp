@@ -248,7 +248,8 @@ TEST_CASE(
   CHECK_FALSE(studio.clicks().offer());
 }
 
-TEST_CASE("hands: right after a box, 2 and 3 are no tools: what else it can mean is still computed") {
+TEST_CASE(
+    "hands: right after a box, 2 and 3 are no tools: what else it can mean is chosen once it is computed") {
   Hands hands = hands_on_sample(false);
   Studio& studio = hands.studio();
   box_apple(&hands);
@@ -256,7 +257,7 @@ TEST_CASE("hands: right after a box, 2 and 3 are no tools: what else it can mean
   for (const int key : {'2', '3'}) {
     hands.app.key(key);
     CHECK(studio.view().tool == ToolId(Tool::kBox));
-    CHECK(hands.said().find("once Object 1 is computed") != std::string::npos);
+    CHECK(hands.said().find("as soon as Object 1 is computed") != std::string::npos);
   }
   REQUIRE(hands.app.settle());
   REQUIRE(studio.clicks().offer());

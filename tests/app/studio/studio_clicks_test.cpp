@@ -128,6 +128,8 @@ TEST_CASE("clicks: with the object hidden, hover and click hit what is seen") {
     }
     const auto hit = static_cast<std::size_t>(seen->gaussian);
     REQUIRE_FALSE(before[hit]);
+    artist.app.move(at + glm::vec2(2, 0));  // nothing is outlined until the pointer moves
+    artist.app.frames(1);
     artist.app.move(at);
     REQUIRE(artist.app.settle());
     const Flags outlined = artist.studio().viewport().style(0).highlight;
@@ -151,7 +153,10 @@ TEST_CASE("clicks: with outlines off, hovering outlines nothing where the rest i
     view.outline = outline;
     view.display = display;
     hands.studio().apply(SetView{view});
-    hands.app.move(hands.app.screen_of(kOnOrange));
+    for (const float aside_px : {2.0f, 0.0f}) {
+      REQUIRE(hands.app.settle());
+      hands.app.move(hands.app.screen_of(kOnOrange) + glm::vec2(aside_px, 0));
+    }
     REQUIRE(hands.app.settle());
     return hands.studio().viewport().style(0).highlight != nullptr;
   };
