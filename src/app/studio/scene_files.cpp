@@ -433,6 +433,7 @@ void SceneFiles::opened(const std::shared_ptr<OpenedScene>& scene, const std::op
   if (work && work->view) {
     viewport_.camera().set_pose(work->view->pose);
     show(work->view->display, &ws_.view);
+    cuts_.take_doubtful_sides(work->view->sides);
   }
   work_.opened(work, work_path);
   ws_.say(Message::Kind::kDone, described(*scene) + (work ? ". Its work is restored" : ""));

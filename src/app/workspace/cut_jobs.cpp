@@ -66,6 +66,7 @@ void CutJobs::reset() {
   ws_.tasks.cancel(TaskKind::kCut);
   running_.reset();
   known_.clear();
+  opened_.clear();
   ahead_.clear();
   ahead_serial_ = 0;
   given_up_.clear();
