@@ -32,7 +32,7 @@ TEST_CASE("clicks: the wheel takes sizes that differ, and says where there is no
       MESSAGE(place.name, ": ", steps, " steps, then: ", artist.said());
       CHECK(steps < 60);
       const bool told =
-          artist.said().starts_with(notch > 0 ? "This is the largest of" : "This is the smallest of") ||
+          artist.said().starts_with(notch > 0 ? "This is the largest size" : "This is the smallest size") ||
           artist.said().find("one size alone") != std::string::npos;
       CHECK(told);
     }
