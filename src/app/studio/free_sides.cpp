@@ -44,39 +44,38 @@ void FreeSides::frame() {
   constexpr float kApart = 0.25f;  // of the object's size
   const float apart = kApart * glm::length(robust_bounds(points).extent());
   const int height_px = std::max(1, kWidthPx * pane.height_px / std::max(1, pane.width_px));
-  ws_.tasks.submit(
-      TaskKind::kSides,
-      [this, from, sides, height_px, apart, id = object->id, name = object->name, scene = ws_.scene,
-       labels = ws_.labels.labels(ws_.document(), *object, ws_.gaussians())](const Job& job) {
-        constexpr double kMuch = 0.25, kBetter = 0.15, kAsGood = 0.03;
-        constexpr double kSeen = 0.5, kOutOfSight = 0.9;
-        const auto hides = [&](const CameraPose& pose) {
-          return hidden_share(*scene, *labels, camera_at(pose, kWidthPx, height_px), apart, job);
-        };
-        std::vector<double> hidden;
-        for (const Framing& side : sides) {
-          hidden.push_back(hides(side.pose));
-          if (job.cancelled() || hidden.front() < kMuch) return;
-        }
-        const double least = std::ranges::min(hidden);
-        if (least > hidden.front() - kBetter) return;
-        const auto best = static_cast<std::size_t>(  // the nearest of those as good
-            std::ranges::find_if(hidden, [&](double h) { return h <= least + kAsGood; }) - hidden.begin());
-        // The way back led behind a wall, as to see all of a floor.
-        const bool lost = hidden.front() > kOutOfSight && hides(from) < kSeen;
-        ws_.tasks.post([this, scene, name, lost, offered = Offer{id, sides.front().pose, sides[best]}] {
-          if (scene != ws_.scene || offered.object != ws_.document().active) return;
-          const auto say = [&](const char* what) {
-            ws_.say_also(Message::Kind::kInfo, fmt::format("Something stands before {}: {}", name, what));
-          };
-          if (lost && viewport_.camera().goal() == offered.from) {
-            viewport_.camera().frame(offered.side);
-            return say("shown from a side where less does");
-          }
-          offer_ = offered;
-          say("F again looks from a side where less does");
-        });
-      });
+  ws_.tasks.submit(TaskKind::kSides, [this, from, sides, height_px, apart, id = object->id,
+                                      name = object->name, scene = ws_.scene,
+                                      labels = ws_.labels.labels(ws_.document(), *object, ws_.gaussians())](
+                                         const Job& job) {
+    constexpr double kMuch = 0.25, kBetter = 0.15, kAsGood = 0.03;
+    constexpr double kSeen = 0.5, kOutOfSight = 0.9;
+    const auto hides = [&](const CameraPose& pose) {
+      return hidden_share(*scene, *labels, camera_at(pose, kWidthPx, height_px), apart, job);
+    };
+    std::vector<double> hidden;
+    for (const Framing& side : sides) {
+      hidden.push_back(hides(side.pose));
+      if (job.cancelled() || hidden.front() < kMuch) return;
+    }
+    const double least = std::ranges::min(hidden);
+    if (least > hidden.front() - kBetter) return;
+    const auto best = static_cast<std::size_t>(  // the nearest of those as good
+        std::ranges::find_if(hidden, [&](double h) { return h <= least + kAsGood; }) - hidden.begin());
+    // The way back led behind a wall, as to see all of a floor.
+    const bool lost = hidden.front() > kOutOfSight && hides(from) < kSeen;
+    ws_.tasks.post([this, scene, name, lost, offered = Offer{id, sides.front().pose, sides[best]}] {
+      if (scene != ws_.scene || offered.object != ws_.document().active) return;
+      if (lost && viewport_.camera().goal() == offered.from) {
+        viewport_.camera().frame(offered.side);
+        return ws_.say(Message::Kind::kInfo,
+                       fmt::format("Something stands before {}: shown from a side where less does", name));
+      }
+      offer_ = offered;
+      ws_.say(Message::Kind::kInfo,
+              fmt::format("Something stands before {}: F again looks from a side where less does", name));
+    });
+  });
 }
 
 }  // namespace splatcut
