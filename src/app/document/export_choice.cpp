@@ -45,7 +45,7 @@ std::filesystem::path folder_to_write(const std::filesystem::path& wanted) {
 }
 
 std::filesystem::path folder_of_next(const std::filesystem::path& scene, const std::filesystem::path& last) {
-  return folder_to_write(std::filesystem::absolute(last.empty() ? scene : last).parent_path());
+  return can_be_written(last) ? last : folder_to_write(std::filesystem::absolute(scene).parent_path());
 }
 
 std::string proposed_path(const ExportChoice& choice, const std::filesystem::path& scene,

@@ -34,8 +34,8 @@ struct ExportChoice {
 // That folder, or where it cannot be written the user's Documents or home; that folder where neither can.
 std::filesystem::path folder_to_write(const std::filesystem::path& wanted);
 
-// Where the next file of a scene goes: beside what was written last of it, `last`, or if that is empty beside
-// the scene (see folder_to_write()).
+// Where the next file goes: into `last`, the folder of the last export, or if that is empty, gone or cannot
+// be written beside the scene (see folder_to_write()).
 std::filesystem::path folder_of_next(const std::filesystem::path& scene, const std::filesystem::path& last);
 
 // A free path for that: in the folder of the present path, else in folder_of_next(). object: null if there is

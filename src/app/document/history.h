@@ -35,6 +35,8 @@ struct SavedSteps {
   };
   std::vector<Step> steps;
   std::size_t cursor = 0;
+  std::vector<std::size_t>
+      compared{};  // steps before the last stroke of each object, see before_last_stroke()
 };
 
 class History {

@@ -7,17 +7,12 @@
 #include <vector>
 
 #include "app/document/document.h"
+#include "app/document/doubtful_side.h"
 #include "core/image.h"
 #include "core/stage_clock.h"
 #include "segment/session/cut_result.h"
 
 namespace splatcut {
-
-// Gaussians that a side is in doubt of, as it shows them: out of the object, or in it.
-struct OpenDoubt {
-  std::vector<std::uint32_t> out, in;
-  bool is_border = false;  // true: of both sides of a border through a surface; else strokes took, or added
-};
 
 // A view that the cut used, as the thumbnail strip shows it.
 struct ViewCard {
@@ -31,7 +26,7 @@ struct ViewCard {
   std::string doubt;             // why the cutout is in doubt there, after "In doubt: "; empty: it is not
   bool doubt_of_stroke = false;  // true: it is of what the last stroke changed
   // What it is of, also since earlier strokes, strokes' and borders apart; empty: not known.
-  std::vector<std::shared_ptr<const OpenDoubt>> open{};
+  OpenDoubts open{};
   bool looked_at = false;    // true: somebody looked at it, so it ends with the next stroke
   std::string legend;        // what its marks of that change mean, a line of its own; empty: it has none
   std::uint64_t serial = 0;  // number that changes with the picture

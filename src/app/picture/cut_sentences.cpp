@@ -48,13 +48,13 @@ std::string why_so_already(const CutRequest& request, const CutResult& result) {
          (result.size + 1 < result.sizes ? ", or press + for a larger part" : "");
 }
 
-std::string why_no_larger(std::size_t sizes, bool first_stroke, std::size_t taken, std::size_t all) {
+std::string why_no_larger(bool first_stroke, std::size_t taken, std::size_t all) {
   constexpr double kNearlyAll = 0.95;
   const bool whole = static_cast<double>(taken) > kNearlyAll * static_cast<double>(all);
-  return fmt::format("This is the largest of {} sizes{}", sizes,
-                     whole          ? ": nearly the whole scene is taken. Page Down takes less"
-                     : first_stroke ? "; a box (4) may find more"
-                                    : "");
+  return std::string("This is the largest size") +
+         (whole          ? ": nearly the whole scene is taken. Page Down takes less"
+          : first_stroke ? "; a box (4) may find more"
+                         : "");
 }
 
 std::string leap_of_size(std::size_t was, std::size_t is) {

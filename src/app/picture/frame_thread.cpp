@@ -226,6 +226,11 @@ std::optional<FrameResult> FrameThread::draw(const FrameRequest& request, const 
   Job job;
   job.stop = stop;
   kept_.resize(request.panes.size());
+  const auto groups_for = [this](const Source& from, const Flags& owner) -> std::shared_ptr<const Groups> {
+    for (const Kept& k : kept_)
+      if (k.groups && k.groups->from == from.held && same_set(k.groups->owner, owner)) return k.groups;
+    return std::make_shared<const Groups>(Groups{groups_of(from, *owner), owner, from.held});
+  };
   FrameResult result{request.scene, {}, {}, {}, {}, request.full, 0, request.limits};
   for (std::size_t i = 0; i < request.panes.size(); ++i) {
     const PaneRequest& pane = request.panes[i];
@@ -235,13 +240,9 @@ std::optional<FrameResult> FrameThread::draw(const FrameRequest& request, const 
                           kept.limits == request.limits && same_camera(kept.frame->camera, pane.camera);
     const Source from = source_of(request, pane, reusable ? kept.full : request.full);
     const Flags& owner = pane.style.owner;
-    const bool in_groups = owner && kept.groups_from == from.held && same_set(kept.groups_owner, owner);
-    if (owner && !in_groups) {
-      kept.groups = groups_of(from, *owner);
-      kept.groups_owner = owner;
-      kept.groups_from = from.held;
-    }
-    const std::span<const std::uint32_t> groups = owner ? std::span(kept.groups) : std::span<std::uint32_t>();
+    kept.groups = owner ? groups_for(from, owner) : nullptr;
+    const std::span<const std::uint32_t> groups =
+        kept.groups ? std::span(kept.groups->of) : std::span<const std::uint32_t>();
     Image<std::uint32_t> group;
     if (!reusable) {
       Drawn made = rastered(from, request, pane, groups, job);

@@ -85,6 +85,12 @@ class FrameThread {
   std::optional<FrameResult> done_;
   std::optional<FrameRequest> drawing_;  // request that is being drawn
   std::stop_source drawing_stop_;
+  // Number of the object of each Gaussian of what is drawn: of `owner`, and of what holds those Gaussians.
+  struct Groups {
+    std::vector<std::uint32_t> of;
+    Flags owner;
+    std::shared_ptr<const void> from;
+  };
   // Frame that the drawing thread rasterised last for a pane. Only that thread uses it.
   struct Kept {
     std::uint64_t scene = 0;
@@ -95,10 +101,7 @@ class FrameThread {
     std::shared_ptr<const Frame> frame;
     Flags owner;  // what `owners` are of, FrameResult::owners
     std::shared_ptr<const Image<std::uint8_t>> owners;
-    // Number of the object of each Gaussian of what was drawn last: of groups_owner, and of what held it.
-    std::vector<std::uint32_t> groups{};
-    Flags groups_owner{};
-    std::shared_ptr<const void> groups_from{};
+    std::shared_ptr<const Groups> groups;  // shared by panes of the same; null: no objects are tinted
   };
   std::vector<Kept> kept_;
   struct Arena;  // TBB arena with a higher priority than other work

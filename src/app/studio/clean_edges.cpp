@@ -7,6 +7,16 @@
 
 namespace splatcut {
 
+namespace {
+
+// What that means, and what the button does then.
+std::string uncleaned_text(const std::string& name, const std::string& why_not) {
+  return fmt::format("Clean cuts nothing off {}: {}. With the button on or off it looks and exports the same",
+                     name, why_not);
+}
+
+}  // namespace
+
 void CleanEdges::update() {
   constexpr double kCalmSeconds = 1;
   if (!ws_.scene || !viewport_.style_current() || cuts_.cutting() != 0) return;
@@ -60,9 +70,10 @@ void CleanEdges::start(const Asked& asked) {
     ws_.tasks.post([this, asked, clean] {
       if (clean != ws_.clean || !known(asked)) return;
       ++ws_.view_serial;
-      if (const auto object = clean->known(asked.leaving.labels, asked.leaving.up_world);
-          object && !asked.fills && !object->report.cleaned && shows(false))
-        ws_.say(Message::Kind::kInfo, "Edges stay as they are: " + object->report.why_not);
+      const auto object = clean->known(asked.leaving.labels, asked.leaving.up_world);
+      const ObjectItem* active = ws_.document().active_object();
+      if (object && active && !asked.fills && !object->report.cleaned && shows(false))
+        ws_.say_also(Message::Kind::kInfo, uncleaned_text(active->name, object->report.why_not));
     });
   });
 }

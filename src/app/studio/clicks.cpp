@@ -177,9 +177,8 @@ std::string Clicks::why_not_step(int steps) const {
   const std::size_t size = size_wanted(), last = known->count() - 1;
   if (last == 0) return "The click means one size alone";
   if (steps > 0 && size >= last)
-    return why_no_larger(known->count(), stroke_count(*object) == 1, ws_.gaussians_of(object->id),
-                         ws_.gaussians());
-  if (steps < 0 && size == 0) return fmt::format("This is the smallest of {} sizes", known->count());
+    return why_no_larger(stroke_count(*object) == 1, ws_.gaussians_of(object->id), ws_.gaussians());
+  if (steps < 0 && size == 0) return "This is the smallest size";
   return {};
 }
 
@@ -264,11 +263,13 @@ std::optional<Clicks::HoverAsk> Clicks::hover_wanted() const {
                   hit->gaussian};
 }
 
-// True from a change of the display or the background until the pointer moves: one looks at the picture.
+// True from a change of the display or the background until the pointer moves: one looks at the picture. It
+// may have moved since that change before this is asked.
 bool Clicks::looks_only() {
   const Look look{ws_.view.display, ws_.view.checker, ws_.document().background};
-  if (std::exchange(look_, look) != look) looks_only_px_ = ws_.tools.pointer_px();
-  if (looks_only_px_ != ws_.tools.pointer_px()) looks_only_px_.reset();
+  const glm::vec2 pointer_px = ws_.tools.pointer_px(), before_px = std::exchange(looked_px_, pointer_px);
+  if (std::exchange(look_, look) != look) looks_only_px_ = before_px;
+  if (looks_only_px_ != pointer_px) looks_only_px_.reset();
   return looks_only_px_.has_value();
 }
 

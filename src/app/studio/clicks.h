@@ -120,6 +120,7 @@ class Clicks {
   HoverLeft hover_left_;
   std::optional<HoverAsk> hover_;           // question that was asked last; its answer may be shown already
   Look look_;                               // at the last update()
+  glm::vec2 looked_px_{0};                  // pointer then
   std::optional<glm::vec2> looks_only_px_;  // pointer since look_ changed; none: it moved
   double outlined_s_ = 0;  // clock time at which what it outlines was last shown or taken away
   Ready ready_;

@@ -11,8 +11,9 @@
 
 namespace splatcut {
 
-// Another scene may have been opened while it was written.
+// Another scene may have been opened while it was written: the folder is remembered for all of them.
 void Exports::written(const std::filesystem::path& path, const OpenedScene& of) {
+  folder_ = std::filesystem::absolute(path).parent_path();
   if (ws_.scene && ws_.scene->files.front().id == of.files.front().id) last_ = path;
 }
 

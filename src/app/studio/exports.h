@@ -23,13 +23,16 @@ class Exports {
   // Path of the scene, folder of scenes, or turntable that was written last of the scene that is open; empty:
   // none was.
   const std::filesystem::path& last() const { return last_; }
+  // Folder in which the last of all was written, also before the program began; empty: none was.
+  const std::filesystem::path& folder() const { return folder_; }
+  void begin_in(std::filesystem::path folder) { folder_ = std::move(folder); }
 
  private:
   void written(const std::filesystem::path& path, const OpenedScene& of);
 
   Workspace& ws_;
   const Viewport& viewport_;
-  std::filesystem::path last_;
+  std::filesystem::path last_, folder_;
 };
 
 }  // namespace splatcut

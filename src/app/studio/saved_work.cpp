@@ -28,8 +28,8 @@ bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
 
 }  // namespace
 
-SavedWork::SavedWork(Workspace& workspace, Viewport& viewport)
-    : ws_(workspace), viewport_(viewport), autosaves_(workspace.options.state_folder) {
+SavedWork::SavedWork(Workspace& workspace, Viewport& viewport, const CutJobs& cuts)
+    : ws_(workspace), viewport_(viewport), cuts_(cuts), autosaves_(workspace.options.state_folder) {
   autosaved_serial_ = saved_serial_ = ws_.history.serial();
   find_offers();
 }
@@ -140,7 +140,7 @@ void SavedWork::update(double seconds) {
 }
 
 WorkView SavedWork::seen() const {
-  return {viewport_.camera().kept_pose(), ws_.view.display};
+  return {viewport_.camera().kept_pose(), ws_.view.display, cuts_.doubtful_sides()};
 }
 
 Image<Rgb8> SavedWork::small_picture() const {

@@ -20,7 +20,7 @@ namespace splatcut {
 
 class SavedWork {
  public:
-  SavedWork(Workspace& workspace, Viewport& viewport);
+  SavedWork(Workspace& workspace, Viewport& viewport, const CutJobs& cuts);
 
   void update(double seconds);  // writes the autosave when it is due; called once a frame
   // Removes the autosave, or writes it if work is unsaved; called when the program ends.
@@ -57,6 +57,7 @@ class SavedWork {
 
   Workspace& ws_;
   Viewport& viewport_;
+  const CutJobs& cuts_;
   std::filesystem::path work_path_;
   Autosaves autosaves_;
   // File that a crash left and that the user opened; it is removed once the work is in another file.

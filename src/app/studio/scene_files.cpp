@@ -91,8 +91,8 @@ void SceneFiles::perform(const OpenScene& c) {
       next_file_id_ = std::max(next_file_id_, id);
       if (!is_last(*scene)) return;
       opened(scene, work, work_path);
-      for (const std::string& remark : scene->remarks) ws_.say(Message::Kind::kInfo, remark);
-      if (work && !work->warning.empty()) ws_.say(Message::Kind::kInfo, work->warning);
+      for (const std::string& remark : scene->remarks) ws_.say_also(Message::Kind::kInfo, remark);
+      if (work && !work->warning.empty()) ws_.say_also(Message::Kind::kInfo, work->warning);
       add_all(added, axes, refused);
     });
   });
@@ -281,10 +281,10 @@ void SceneFiles::files_changed(const std::shared_ptr<OpenedScene>& scene, Histor
       glm::distance(foot_world(*put, up_world), *said.put_on_world) < 1e-3f * viewport_.camera().scene_size();
   if (said.seen_from == viewport_.camera().goal() && !in_view) viewport_.show_all_of_scene();
   ws_.say(Message::Kind::kDone, said.done);
-  for (const std::string& remark : scene->remarks) ws_.say(Message::Kind::kInfo, remark);
+  for (const std::string& remark : scene->remarks) ws_.say_also(Message::Kind::kInfo, remark);
   if (put)
     if (const std::string says = misfit(*put, viewport_.pane_camera(), up_world); !says.empty())
-      ws_.say(Message::Kind::kInfo, says);
+      ws_.say_also(Message::Kind::kInfo, says);
   say_refused(said.refused);
   start_preparing();
 }
@@ -433,6 +433,7 @@ void SceneFiles::opened(const std::shared_ptr<OpenedScene>& scene, const std::op
   if (work && work->view) {
     viewport_.camera().set_pose(work->view->pose);
     show(work->view->display, &ws_.view);
+    cuts_.take_doubtful_sides(work->view->sides);
   }
   work_.opened(work, work_path);
   ws_.say(Message::Kind::kDone, described(*scene) + (work ? ". Its work is restored" : ""));

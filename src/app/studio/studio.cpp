@@ -14,7 +14,7 @@ Studio::Studio(const StudioOptions& options)
       viewport_(ws_, cuts_),
       edits_(ws_, viewport_, cuts_),
       clicks_(ws_, viewport_, cuts_, edits_),
-      work_(ws_, viewport_),
+      work_(ws_, viewport_, cuts_),
       files_(
           ws_, viewport_, cuts_, work_,
           {[this](bool same) { scene_opened(same); },

@@ -65,6 +65,7 @@ class Studio {
   const Clicks& clicks() const { return clicks_; }
   const SavedWork& work() const { return work_; }
   const Exports& exports() const { return exports_; }
+  void begin_exports_in(std::filesystem::path folder) { exports_.begin_in(std::move(folder)); }
   const SceneFiles& files() const { return files_; }
   CameraController& camera() { return viewport_.camera(); }
   const CameraController& camera() const { return viewport_.camera(); }

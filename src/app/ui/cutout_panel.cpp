@@ -38,6 +38,11 @@ void slider_label(const std::string& text) {
   ImGui::SetNextItemWidth(-34);
 }
 
+// How far from what the click likely means: each meaning has its own number of sizes, which says nothing.
+std::string size_beside(int steps) {
+  return steps == 0 ? "as clicked" : fmt::format("{} {}", std::abs(steps), steps > 0 ? "larger" : "smaller");
+}
+
 // A step for each size that the last click can have, the smallest at the left. The picture outlines the step
 // that the pointer is at; it is taken when the button is let go. While the sizes are not known its place is
 // kept, so that what is below does not move.
@@ -46,7 +51,7 @@ void size_slider(UiContext& ui, const ObjectItem& object) {
   const StrokeSizes* known = ui.studio.clicks().known_sizes();
   if (!known || known->count() < 2) {
     const std::string why = known ? "The click means one size alone" : ui.studio.clicks().why_not_step(1);
-    slider_label(why.empty() ? "Part" : "Part  1 of 1");
+    slider_label("Part");
     ImGui::BeginDisabled();
     int none = 0;
     ImGui::SliderInt("##size", &none, 0, 1, "", ImGuiSliderFlags_NoInput);
@@ -57,7 +62,7 @@ void size_slider(UiContext& ui, const ObjectItem& object) {
   }
   const auto sizes = static_cast<int>(known->count()),
              taken = static_cast<int>(ui.studio.clicks().size_wanted());
-  slider_label(fmt::format("Part  {} of {}", taken + 1, sizes));
+  slider_label("Part  " + size_beside(taken - static_cast<int>(known->likeliest)));
   ImGui::BeginDisabled(object.locked);
   const float from = ImGui::GetCursorScreenPos().x, width = ImGui::CalcItemWidth();
   int step = taken + 1;
@@ -70,8 +75,8 @@ void size_slider(UiContext& ui, const ObjectItem& object) {
   if (ImGui::IsItemDeactivated() && pointed != taken) ui.ask(StepScale{pointed - taken});
   ImGui::EndDisabled();
   tooltip(pointed == taken ? "The part that the last click takes"
-                           : fmt::format("Take part {} of {}  (wheel after the click, Page Up, Page Down)",
-                                         pointed + 1, sizes));
+                           : fmt::format("Take the part {}  (wheel after the click, Page Up, Page Down)",
+                                         size_beside(pointed - static_cast<int>(known->likeliest))));
 }
 
 void smoothness_slider(UiContext& ui, const ObjectItem& object) {

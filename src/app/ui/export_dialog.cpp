@@ -62,7 +62,7 @@ HoleKnown hole_known(const Studio& studio, ExportWhat what) {
 void propose_path(UiContext& ui) {
   ExportChoice& choice = ui.state.exporting;
   choice.path = proposed_path(choice, ui.studio.scene()->scene->path, ui.studio.document().active_object(),
-                              ui.studio.exports().last());
+                              ui.studio.exports().folder());
   choice.path_typed = false;
 }
 
@@ -212,7 +212,7 @@ void move_numbers(UiContext& ui) {
   glm::vec3 in_file = axes.position(choice.placement.move) + 0.0f;  // no -0
   for (int i = 0; i < 3; ++i) {
     ImGui::SameLine(0, i == 0 ? 14.0f : 2.0f);
-    if (placement_number(kIds[i], &in_file[i], 0.01f, kFormats[i], 100))
+    if (placement_number(kIds[i], &in_file[i], 0.01f, kFormats[i], 84))
       choice.placement.move = axes.position(in_file) + 0.0f;
     tooltip("Added to every position of the file, after all else. Drag, or click and type.");
   }
@@ -305,6 +305,7 @@ void export_dialog(UiContext& ui) {
     ImGui::SetColumnWidth(0, kWidth);
   }
   export_choices(ui);
+  const float below_names = ImGui::GetCursorPosY();
   placement_choices(ui);
   ExportChoice& choice = ui.state.exporting;
   if (choice.what == ExportWhat::kRest) {
@@ -315,6 +316,13 @@ void export_dialog(UiContext& ui) {
                          : choice.what == ExportWhat::kOneFile
                              ? "All objects in one file are written as they are"
                              : "");
+  if (!previews) {  // a small one, right of the numbers
+    constexpr float kSmall = 118;
+    const ImVec2 after = ImGui::GetCursorPos();
+    ImGui::SetCursorPos({ImGui::GetWindowWidth() - kSmall - 12, below_names});
+    export_preview(ui, {kSmall, after.y - below_names - ImGui::GetStyle().ItemSpacing.y});
+    ImGui::SetCursorPos(after);
+  }
   const std::size_t gaussians = choice.what == ExportWhat::kOneFile
                                     ? gaussians_in_one(ui)
                                     : gaussians_to_export(ui.studio, choice.what);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/picture/capture.h"
 #include "app/ui/splat_dots.h"
 #include "app/ui/widgets.h"
 
@@ -15,10 +16,10 @@ namespace {
 constexpr ImU32 kBackdrop = IM_COL32(104, 107, 112, 255), kFaint = IM_COL32(255, 255, 255, 60),
                 kWords = IM_COL32(255, 255, 255, 210);
 
-// Passes over all Gaussians: made once for each choice but the numbers. Of many some say where the middle
-// and the foot are, so that the window does not stand still; what is written goes by all.
+// Passes over all Gaussians: made once for each choice but the numbers. Of many some are drawn, and some say
+// where the middle and the foot are, so that the window does not stand still; what is written goes by all.
 void refresh(UiContext& ui) {
-  constexpr std::size_t kMost = 5000, kMostForFrame = 200000;
+  constexpr std::size_t kMost = 60000, kMostForFrame = 200000;
   const ExportChoice& choice = ui.state.exporting;
   ExportPreview& preview = ui.state.export_preview;
   const Studio& studio = ui.studio;
@@ -29,10 +30,11 @@ void refresh(UiContext& ui) {
   const GaussianCloud& cloud = *studio.scene()->cloud;
   const Document& document = studio.document();
   const std::vector<std::uint8_t> keep = exported(document, document.active, choice.what, cloud.size());
-  preview.sample = some_of(keep, kMost);
+  preview.sample = permuted(cloud, some_of(keep, kMost));
+  preview.picture = {};
   std::vector<std::uint8_t> some(cloud.size(), 0);
   for (const std::uint32_t g : some_of(keep, kMostForFrame)) some[g] = 1;
-  if (!preview.sample.empty())
+  if (preview.sample.size() > 0)
     preview.frame = export_frame(choice.placement, cloud, some, document.up_world, choice.format.axes);
   preview.grips.drag.reset();
   preview.key = std::move(key);
@@ -43,10 +45,10 @@ struct Shown {
   bool origin = true;  // is in it
 };
 
-Shown what_to_show(const ExportPreview& preview, const GaussianCloud& cloud, const Similarity& to) {
+Shown what_to_show(const ExportPreview& preview, const Similarity& to) {
   constexpr float kFar = 5;  // times the size of what is exported: it would be a dot
   std::vector<glm::vec3> positions;
-  for (const std::uint32_t g : preview.sample) positions.push_back(moved(cloud.position[g], to));
+  for (const glm::vec3& p : preview.sample.position) positions.push_back(moved(p, to));
   Shown shown{robust_bounds(positions), true};
   const float size = std::max(1e-9f, glm::length(shown.box.extent()));
   shown.origin = glm::length(shown.box.centre()) < kFar * size;
@@ -71,6 +73,32 @@ Camera camera_around(const ExportPreview& preview, const Box& box, const UiRect&
   const Camera camera = look_at(box.centre() + distance * from, box.centre(), up, kFov,
                                 static_cast<int>(size.x), static_cast<int>(size.y));
   return in_window_points(camera, area.min, 1);
+}
+
+// The same camera in the scene, whose Gaussians keep their places and colours: what shows does not depend on
+// where the file has them. camera: in points of the window; corner: of the preview.
+Camera camera_in_scene(Camera camera, const glm::vec2& corner, const Similarity& to) {
+  camera.camera_from_world_translation = camera.camera_from_world(moved(glm::vec3(0), to)) / to.scale;
+  camera.camera_from_world_rotation = camera.camera_from_world_rotation * glm::mat3_cast(to.rotation);
+  camera.cx_px -= corner.x;
+  camera.cy_px -= corner.y;
+  return camera;
+}
+
+// As splats: as dots, what lies inside of the object and is never seen showed between those of its surface.
+void draw_sample(UiContext& ui, const UiRect& area, const Similarity& to) {
+  constexpr std::uint64_t kPreviewKey = 900;  // of its texture
+  ExportPreview& preview = ui.state.export_preview;
+  const Camera camera = camera_in_scene(preview.camera, area.min, to);
+  if (preview.picture.size() == 0 || !same_camera(preview.picture_camera, camera)) {
+    const DrawLimits limits{.near_plane = preview.sample.near_plane};
+    preview.picture = capture(preview.sample, camera, nullptr, limits, {}, true, {});
+    preview.picture_camera = camera;
+    ++preview.picture_serial;
+  }
+  ImGui::GetWindowDrawList()->AddImage(
+      ui.renderer.texture(kPreviewKey, preview.picture_serial, preview.picture), vec(area.min),
+      vec(area.max));
 }
 
 void segment(const Camera& camera, const glm::vec3& a, const glm::vec3& b, ImU32 ink, float width) {
@@ -105,16 +133,16 @@ void turn_view(ExportPreview* preview, bool held) {
   preview->elevation_rad = std::clamp(preview->elevation_rad + kRadPerPoint * way.y, -kSteepest, kSteepest);
 }
 
-void drag_handles(UiContext& ui, bool hovered) {
+void drag_handles(UiContext& ui, const glm::vec2& size_points, bool hovered) {
   ExportPreview& preview = ui.state.export_preview;
   ExportPlacement& placement = ui.state.exporting.placement;
-  constexpr float kReach = 70;
+  const float reach = std::min(70.0f, 0.3f * size_points.x);
   const AxisSigns& axes = ui.state.exporting.format.axes;  // arrows point where the file's numbers grow
   const PlacingHandles shown{
       .centre_world = pivot_of(placement, preview.frame),
       .arrow_axes = {axes.position({1, 0, 0}), axes.position({0, 1, 0}), axes.position({0, 0, 1})},
       .turn_axes = {preview.frame.up_file},
-      .reach_px = kReach,
+      .reach_px = reach,
       .turned_deg = {placement.turn_deg},
       .scaled = placement.scale};
   const GripsMoved hand = grips(&preview.grips, shown, preview.camera, hovered, ui.theme);
@@ -133,23 +161,25 @@ void export_preview(UiContext& ui, const glm::vec2& size_points) {
   list.AddRectFilled(vec(area.min), vec(area.max), kBackdrop, 6);
   ImGui::InvisibleButton("##preview", {size_points.x, size_points.y});
   const bool hovered = ImGui::IsItemHovered(), held = ImGui::IsItemActive();
-  if (preview.sample.empty()) return preview.grips.shown.clear();
-  const GaussianCloud& cloud = *ui.studio.scene()->cloud;
+  if (preview.sample.size() == 0 || !(ui.state.exporting.placement.scale > 0))
+    return preview.grips.shown.clear();
   const Similarity to = similarity_of(ui.state.exporting.placement, preview.frame);
-  const Shown shown = what_to_show(preview, cloud, to);
+  const Shown shown = what_to_show(preview, to);
   turn_view(&preview, held);
   if (!preview.grips.drag) preview.camera = camera_around(preview, shown.box, area);
   ImGui::PushClipRect(at, vec(area.max), true);
   if (shown.origin)
     draw_ground(preview.frame.up_file, ui.state.exporting.format.axes, preview.camera,
                 0.75f * glm::length(shown.box.extent()));
-  draw_dots(cloud, preview.sample, to, preview.camera, area);
-  drag_handles(ui, hovered);
-  const std::string words =
-      shown.origin ? "In the file: x red, y green, z blue" : "0, 0, 0 of the file is far away";
-  list.AddText({at.x + 8, area.max.y - 22}, kWords, words.c_str());
+  draw_sample(ui, area, to);
+  drag_handles(ui, size_points, hovered);
+  const auto write = [&](float y, const char* words) {  // where there is room
+    if (ImGui::CalcTextSize(words).x + 16 <= size_points.x) list.AddText({at.x + 8, y}, kWords, words);
+  };
+  write(area.max.y - 22,
+        shown.origin ? "In the file: x red, y green, z blue" : "0, 0, 0 of the file is far away");
   if (ui.state.exporting.placement.up != ExportUp::kScene)
-    list.AddText({at.x + 8, at.y + 6}, kWords, "Does it lean? Set what is up under View first");
+    write(at.y + 6, "Does it lean? Set what is up under View first");
   ImGui::PopClipRect();
 }
 

@@ -150,27 +150,27 @@ void places(UiContext& ui, float height) {
   FileBrowser& files = ui.state.files;
   ImGui::BeginChild("places", {150, height}, true);
   std::vector<std::pair<std::string, std::filesystem::path>> all;
+  const auto add = [&all](const char* name, const std::filesystem::path& folder) {
+    std::error_code ignored;
+    if (std::filesystem::is_directory(folder, ignored)) all.emplace_back(name, folder);
+  };
   if (const char* home = std::getenv("HOME")) {
-    all.emplace_back("Home", home);
+    add("Home", home);
     for (const char* name : {"Desktop", "Documents", "Downloads"})
-      all.emplace_back(name, std::filesystem::path(home) / name);
+      add(name, std::filesystem::path(home) / name);
   }
   if (ui.studio.scene())
-    all.emplace_back("Scene", std::filesystem::absolute(ui.studio.scene()->scene->path).parent_path());
+    add("Scene", std::filesystem::absolute(ui.studio.scene()->scene->path).parent_path());
   const std::size_t fixed = all.size();
   for (const std::filesystem::path& file : ui.state.recent) {
     const std::filesystem::path folder = file.parent_path();
-    const bool known = std::ranges::any_of(all, [&](const auto& p) { return p.second == folder; });
-    std::error_code ignored;
-    if (!known && std::filesystem::is_directory(folder, ignored)) all.emplace_back("", folder);
+    if (std::ranges::none_of(all, [&](const auto& p) { return p.second == folder; })) add("", folder);
   }
   std::vector<std::filesystem::path> recent;
   for (std::size_t i = fixed; i < all.size(); ++i) recent.push_back(all[i].second);
   const std::vector<std::string> names = names_of_folders(recent);
   for (std::size_t i = fixed; i < all.size(); ++i) all[i].first = names[i - fixed];
   for (std::size_t i = 0; i < all.size(); ++i) {
-    std::error_code ignored;
-    if (!std::filesystem::is_directory(all[i].second, ignored)) continue;
     if (i == fixed) ImGui::Separator();
     ImGui::PushID(static_cast<int>(i));
     if (ImGui::Selectable(fmt::format("{}  {}", icon::kFolder, all[i].first).c_str(),

@@ -27,7 +27,7 @@ void propose(UiContext& ui) {
   const std::filesystem::path& scene = ui.studio.scene()->scene->path;
   const std::string name = scene.filename().string();
   const std::string ending = kEndings[static_cast<std::size_t>(choice.as)];
-  choice.path = free_path(folder_of_next(scene, ui.studio.exports().last()) /
+  choice.path = free_path(folder_of_next(scene, ui.studio.exports().folder()) /
                               (name.substr(0, name.find('.')) + "_turntable" + ending),
                           ending)
                     .string();

@@ -32,7 +32,10 @@ struct Requests {
 struct ExportPreview {
   std::string key;  // what frame and sample were made for
   ExportFrame frame;
-  std::vector<std::uint32_t> sample;  // of the Gaussians that are written
+  GaussianCloud sample;   // of the Gaussians that are written, where they stand in the scene
+  Image<Rgba8> picture;   // of the sample, drawn by picture_camera
+  Camera picture_camera;  // in the scene, of as many pixels as the preview has points
+  std::uint64_t picture_serial = 0;
   float azimuth_rad = 0.7f, elevation_rad = 0.45f;
   Camera camera;  // stays while a handle is dragged
   Grips grips;

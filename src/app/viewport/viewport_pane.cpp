@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string_view>
 #include <utility>
 
 #include "app/ui/panels.h"
@@ -16,7 +17,6 @@ namespace splatcut {
 namespace {
 
 constexpr std::uint64_t kPaneKey = 1;  // of the panes' textures
-constexpr double kMessageSeconds = 7;
 
 // The background of what floats over the picture.
 void floating_box(const UiContext& ui, const ImVec2& from, const ImVec2& to) {
@@ -60,17 +60,33 @@ std::size_t covers(const UiContext& ui, const UiRect& picture, const UiRect& rec
   return inside;
 }
 
+// Without its first sentences where it takes more than that height: what is to be noted stands at the end.
+std::string end_of(const std::string& text, float wrap, float most_height) {
+  constexpr std::string_view kLeftOut = "... ";
+  std::string shown = text;
+  while (banner_size(shown, wrap).y > most_height) {
+    const std::size_t stop =
+        std::min({shown.find(". ", kLeftOut.size()), shown.find("; "), shown.find('\n')});
+    if (stop == std::string::npos || stop + 2 >= shown.size()) break;
+    shown = kLeftOut.data() + shown.substr(stop + (shown[stop] == '\n' ? 1 : 2));
+  }
+  return shown;
+}
+
 // In the lower corner that covers less of the object as the message comes; there it stays.
 void draw_message(const UiContext& ui, const UiRect& area) {
-  ui.state.message = {};
-  if (ui.studio.messages().empty()) return;
-  const Message& message = ui.studio.messages().back();
-  if (ui.studio.clock_s() - message.time_s > kMessageSeconds) return;
+  const ImVec2 pointer = ImGui::GetIO().MousePos;
+  const bool whole = std::exchange(ui.state.message, {}).contains({pointer.x, pointer.y});
+  const Message* shown = shown_message(ui.studio.messages(), ui.studio.clock_s());
+  if (!shown) return;
+  const Message& message = *shown;
   const Palette& p = ui.theme.colour;
   const bool warns = message.kind == Message::Kind::kRefused, fails = message.kind == Message::Kind::kError;
-  constexpr float kMargin = 14;
+  constexpr float kMargin = 14, kMostShare = 1.0f / 8;  // of the picture; all of it under the pointer
   const float wrap = std::min(760.0f, area.size().x - 90);
-  const glm::vec2 size = banner_size(message.text, wrap);
+  const float most_height = whole || warns || fails ? area.size().y : kMostShare * area.size().y;
+  const std::string text = end_of(message.text, wrap, most_height);
+  const glm::vec2 size = banner_size(text, wrap);
   const glm::vec2 left(area.min.x + kMargin, area.max.y - size.y - kMargin),
       right(std::max(left.x, area.max.x - size.x - kMargin), left.y);
   if (std::exchange(ui.state.message_s, message.time_s) != message.time_s)
@@ -86,7 +102,7 @@ void draw_message(const UiContext& ui, const UiRect& area) {
          : warns                                ? p.warn
          : message.kind == Message::Kind::kDone ? p.good
                                                 : p.accent,
-         message.text, wrap);
+         text, wrap);
 }
 
 // Small labels of two panes.

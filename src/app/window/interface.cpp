@@ -17,9 +17,13 @@ namespace {
 
 constexpr float kTopHeight = 46, kToolsWidth = 54, kUsualSideWidth = 316;
 
+bool is_small(const glm::vec2& window_size) {
+  return window_size.x < 880;
+}
+
 // A third of a small window, so that the picture keeps the most of it.
 float side_width(const glm::vec2& window_size) {
-  return window_size.x < 880 ? std::round(window_size.x / 3) : kUsualSideWidth;
+  return is_small(window_size) ? std::round(window_size.x / 3) : kUsualSideWidth;
 }
 
 constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
@@ -106,8 +110,8 @@ void line(const glm::vec2& a, const glm::vec2& b, const Palette& palette) {
   list.PopClipRect();
 }
 
-void borders(const glm::vec2& size, const Palette& palette) {
-  const float side = size.x - side_width(size), bottom = size.y - kStatusHeight;
+void borders(const glm::vec2& size, float side, const Palette& palette) {
+  const float bottom = size.y - kStatusHeight;
   line({0, kTopHeight}, {size.x, kTopHeight}, palette);
   line({kToolsWidth, kTopHeight}, {kToolsWidth, bottom}, palette);
   line({side, kTopHeight}, {side, bottom}, palette);
@@ -151,7 +155,7 @@ UiRect Interface::viewport() const {
     return std::round(v * theme_.pixels_per_point) / theme_.pixels_per_point;
   };
   return {{kToolsWidth, kTopHeight},
-          {whole(std::max(kToolsWidth + 1, size_points_.x - side_width(size_points_))),
+          {whole(std::max(kToolsWidth + 1, size_points_.x - (has_side_ ? side_width(size_points_) : 0))),
            whole(std::max(kTopHeight + 1, bottom))}};
 }
 
@@ -181,11 +185,13 @@ void Interface::build(const Studio& studio, double seconds, UiRenderer* renderer
   UiContext ui{studio, state_, *ask, theme_, *renderer};
   const Palette& p = theme_.colour;
   const glm::vec2 size = size_points_;
+  // Before there is a scene the panel has nothing to say, and a small window no room for that.
+  has_side_ = !is_small(size) || studio.scene() || !studio.coming().empty();
   const UiRect view = viewport();
   state_.items = {{"picture", view.min, view.max}};
   fixed_panel("picture", view, p, kFixed | ImGuiWindowFlags_NoScrollWithMouse, {0, 0}, [&] {
     covered_ = viewport_pane(ui, view, gpu_picture);
-    if (!dialog_open()) borders(size, p);  // over all panels, under tooltips
+    if (!dialog_open()) borders(size, view.max.x, p);  // over all panels, under tooltips
   });
   fixed_panel("bar", {{0, 0}, {size.x, kTopHeight}}, p, kFixed | ImGuiWindowFlags_NoScrollWithMouse, {9, 9},
               [&] { top_bar(ui); });
@@ -202,8 +208,9 @@ void Interface::build(const Studio& studio, double seconds, UiRenderer* renderer
   }
   fixed_panel("tools", {{0, kTopHeight}, {kToolsWidth, size.y - kStatusHeight}}, p, kFixed, {8, 8},
               [&] { tool_column(ui); });
-  fixed_panel("side", {{size.x - side_width(size), kTopHeight}, {size.x, size.y - kStatusHeight}}, p, kFixed,
-              {12, 8}, [&] { side_panel(ui); });
+  if (has_side_)
+    fixed_panel("side", {{size.x - side_width(size), kTopHeight}, {size.x, size.y - kStatusHeight}}, p,
+                kFixed, {12, 8}, [&] { side_panel(ui); });
   fixed_panel("status", {{0, size.y - kStatusHeight}, {size.x, size.y}}, p,
               kFixed | ImGuiWindowFlags_NoScrollWithMouse, {12, 3}, [&] { status_bar(ui); });
   file_dialog(ui);

@@ -52,6 +52,7 @@ class Interface {
   float notes_height_ = 28, cards_height_ = 0;    // of the notes and thumbnails below them, points
   float side_end_ = 0;                            // of the side panel's rows in the last frame
   bool side_scrolls_ = false;                     // they have no room
+  bool has_side_ = true;                          // the side panel is there
   bool pointer_aims_ = false;                     // it was moved after the last key
   std::vector<UiRect> covered_;  // parts of the picture that take clicks themselves, as of the last frame
 };

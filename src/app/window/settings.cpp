@@ -29,6 +29,7 @@ Settings load_settings(const std::filesystem::path& file) {
     s.view.web_low_pass = json.value("web_low_pass", s.view.web_low_pass);
     for (const std::string& path : json.value("recent", std::vector<std::string>()))
       s.recent.emplace_back(path);
+    s.export_folder = json.value("export_folder", "");
   } catch (const nlohmann::json::exception&) {
     return {};
   } catch (const Error&) {
@@ -54,6 +55,7 @@ void save_settings(const std::filesystem::path& file, const Settings& s) {
                          {"tint", s.view.tint},
                          {"outline", s.view.outline},
                          {"recent", recent},
+                         {"export_folder", s.export_folder.string()},
                          {"maximized", s.maximized},
                          {"web_low_pass", s.view.web_low_pass}};
   if (s.position) json["position"] = {s.position->x, s.position->y};
@@ -67,6 +69,7 @@ void use_settings(const Settings& settings, Application* app) {
   state.ui_scale = settings.ui_scale;
   state.hint_wanted = settings.hint_wanted;
   state.recent = settings.recent;
+  app->studio().begin_exports_in(settings.export_folder);
   app->studio().apply(SetView{settings.view});
 }
 
@@ -76,6 +79,7 @@ Settings settings_of(Application& app, Settings kept) {
   kept.ui_scale = state.ui_scale;
   kept.hint_wanted = state.hint_wanted;
   kept.recent = state.recent;
+  kept.export_folder = app.studio().exports().folder();
   set_what_is_kept(app.studio().view(), &kept.view);
   return kept;
 }

@@ -18,6 +18,7 @@ struct Settings {
   bool dark = true, hint_wanted = true;
   float ui_scale = 1;
   std::vector<std::filesystem::path> recent;
+  std::filesystem::path export_folder;  // of the last export; empty: none was made
   ViewState view;  // brush, speed, tints and outline of it; tools and display modes start afresh
 
   bool operator==(const Settings&) const = default;

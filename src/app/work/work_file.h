@@ -20,6 +20,7 @@
 
 #include "app/document/camera_pose.h"
 #include "app/document/document.h"
+#include "app/document/doubtful_side.h"
 #include "app/document/history.h"
 #include "app/document/opened_scene.h"
 #include "app/document/view_state.h"
@@ -34,10 +35,11 @@ struct WorkFile {
   bool holds_nothing() const;  // the scene as it was opened, and no step that could be redone
 };
 
-// Where the user's camera stands, and what is shown.
+// Where the user's camera stands, what is shown, and what the thumbnails are in doubt of.
 struct WorkView {
   CameraPose pose;
   DisplayMode display = DisplayMode::kWhole;
+  std::vector<DoubtfulSide> sides{};
   bool operator==(const WorkView&) const = default;
 };
 

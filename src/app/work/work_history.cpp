@@ -118,6 +118,11 @@ SavedSteps saved_steps(const History& history) {
   out.cursor = history.cursor() - begin;
   for (std::size_t i = begin; i < end; ++i)
     out.steps.push_back({entries[i].title, entries[i].document, entries[i].other_files != 0});
+  for (const ObjectItem& object : history.now().objects) {
+    const Document* before = before_last_stroke(history, object.id);
+    for (std::size_t i = begin; i < end; ++i)
+      if (before == &entries[i].document) out.compared.push_back(i - begin);
+  }
   return out;
 }
 
@@ -131,7 +136,9 @@ json history_json(const SavedSteps& history, const Scene& scene) {
     expected.merge(arrays_of(kept.back()));
   }
   // What can be computed again has what room all steps together leave.
-  for (const std::size_t next : {history.cursor + 1, history.cursor - 1}) {
+  std::vector<std::size_t> with_all = {history.cursor + 1, history.cursor - 1};
+  with_all.insert(with_all.end(), history.compared.begin(), history.compared.end());
+  for (const std::size_t next : with_all) {
     if (next >= kept.size()) continue;  // also before the first
     Document with_labels = next_to(history.steps[history.cursor].document, history.steps[next].document);
     std::set<const void*> with = arrays_of(with_labels);

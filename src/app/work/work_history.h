@@ -2,8 +2,9 @@
 //
 // {"cursor": n, "arrays": [runs, ...], "objects": [...], "steps": [document with its title, ...]}: arrays and
 // objects that several steps share stand in the file once, and steps name them by number. Labels that a cut
-// can compute again are left out, but for the step before the cursor and the one after it where all steps
-// leave room for them. A step that changed the files of the scene has "other_files": true.
+// can compute again are left out, but for the step before the cursor, the one after it and those that the
+// thumbnails compare with, where all steps leave room for them. A step that changed the files of the scene
+// has "other_files": true.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

@@ -163,4 +163,56 @@ Flags flags_from(const json& j, const Scene& scene, std::uint8_t most, std::span
   return make_flags(std::move(flags));
 }
 
+namespace {
+
+constexpr std::uint8_t kOut = 1, kIn = 2;
+
+json doubt_json(const OpenDoubt& doubt, const Scene& scene) {
+  std::vector<std::uint8_t> flags(scene.cloud.size(), 0);
+  for (const std::uint32_t g : doubt.out) flags[g] = kOut;
+  for (const std::uint32_t g : doubt.in) flags[g] = kIn;
+  return {{"is_border", doubt.is_border}, {"gaussians", runs_json(make_flags(std::move(flags)), scene)}};
+}
+
+OpenDoubt doubt_from(const json& j, const Scene& scene) {
+  OpenDoubt doubt;
+  doubt.is_border = j.at("is_border");
+  const Flags flags = flags_from(j.at("gaussians"), scene, kIn);
+  for (std::uint32_t g = 0; flags && g < flags->size(); ++g)
+    if ((*flags)[g]) ((*flags)[g] == kOut ? doubt.out : doubt.in).push_back(g);
+  return doubt;
+}
+
+}  // namespace
+
+json sides_json(std::span<const DoubtfulSide> sides, const Scene& scene) {
+  json out = json::array();
+  for (const DoubtfulSide& side : sides) {
+    json open = json::array();
+    for (const auto& doubt : side.open) open.push_back(doubt_json(*doubt, scene));
+    out.push_back({{"object", side.object},
+                   {"camera", camera_json(side.camera)},
+                   {"looked_at", side.looked_at},
+                   {"open", std::move(open)}});
+  }
+  return out;
+}
+
+std::vector<DoubtfulSide> sides_from(const json& j, const Scene& scene) {
+  constexpr std::size_t kMostSides = 16 * kMostObjects, kMostNoted = std::size_t{1} << 26;
+  std::vector<DoubtfulSide> sides;
+  std::size_t noted = 0;  // a short text may name all Gaussians many times
+  if (j.size() > kMostSides) throw Error("sides", fmt::format("there are {}", j.size()));
+  for (const json& said : j) {
+    DoubtfulSide side{said.at("object"), camera_from(said.at("camera")), said.at("looked_at")};
+    for (const json& open : said.at("open")) {
+      side.open.push_back(std::make_shared<const OpenDoubt>(doubt_from(open, scene)));
+      noted += side.open.back()->out.size() + side.open.back()->in.size();
+      if (noted > kMostNoted) throw Error("sides", "name more Gaussians than any have");
+    }
+    sides.push_back(std::move(side));
+  }
+  return sides;
+}
+
 }  // namespace splatcut

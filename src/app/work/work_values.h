@@ -5,9 +5,11 @@
 #include <glm/glm.hpp>
 #include <nlohmann/json_fwd.hpp>
 #include <span>
+#include <vector>
 
 #include "app/document/camera_pose.h"
 #include "app/document/document.h"
+#include "app/document/doubtful_side.h"
 #include "scene/formats/scene_file.h"
 
 namespace splatcut {
@@ -34,5 +36,8 @@ struct GoneRows {
 };
 Flags flags_from(const nlohmann::json& j, const Scene& scene, std::uint8_t most,
                  std::span<const GoneRows> gone = {});
+
+nlohmann::json sides_json(std::span<const DoubtfulSide> sides, const Scene& scene);
+std::vector<DoubtfulSide> sides_from(const nlohmann::json& j, const Scene& scene);
 
 }  // namespace splatcut

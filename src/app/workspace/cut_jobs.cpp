@@ -66,6 +66,7 @@ void CutJobs::reset() {
   ws_.tasks.cancel(TaskKind::kCut);
   running_.reset();
   known_.clear();
+  opened_.clear();
   ahead_.clear();
   ahead_serial_ = 0;
   given_up_.clear();
@@ -322,10 +323,8 @@ std::string CutJobs::leap_to(ObjectId object, const CutResult& result) const {
   const ObjectItem *was = last.find(object), *is = history.now().find(object);
   if (!was || !was->cut || is_stale(last, *was)) return {};
   const Stroke *stroke_then = last_stroke(was->views), *stroke = last_stroke(is->views);
-  const std::string& title = history.entries()[history.cursor()].title;
-  const bool stepped = title == StepScale{1}.title() || title == StepScale{-1}.title();
-  if (!stepped || !stroke_then || !stroke || std::abs(stroke->size_step - stroke_then->size_step) != 1)
-    return {};
+  const bool same_strokes = stroke_count(*was) == stroke_count(*is) && was->choice == is->choice;
+  if (!same_strokes || !stroke_then || std::abs(stroke->size_step - stroke_then->size_step) != 1) return {};
   return leap_of_size(count_flags(*was->cut), count_flags(result.labels));
 }
 
@@ -415,8 +414,7 @@ void CutJobs::show_views(const Order& order, std::vector<ViewCard> cards) {
   const Flags now = ws_.labels.labels(ws_.document(), *object, ws_.gaussians());
   if (*now != run->result->labels) return;  // they are drawn again, see renew_views()
   said = doubt;
-  ws_.say(Message::Kind::kInfo,
-          object->name + ": " + doubt + added_by_box(ws_.history, order.object, ws_.context()));
+  ws_.say_also(Message::Kind::kInfo, object->name + ": " + doubt);
 }
 
 }  // namespace splatcut

@@ -47,6 +47,10 @@ class CutJobs {
   // Draws the active object's thumbnail of that number larger, if the worker has nothing else to do.
   void draw_larger(std::uint64_t card_serial);
   void looked_from(const Camera& camera);  // the person has: sides that it shows are looked at
+  // What the thumbnails of all objects are in doubt of, to be kept; and what they were when the work that was
+  // opened now was saved, for when they are drawn.
+  std::vector<DoubtfulSide> doubtful_sides() const;
+  void take_doubtful_sides(std::span<const DoubtfulSide> sides);
   // The cut of that key is of a click that asks for what is so already: said if it changes nothing.
   void note_so_already(std::string key) { so_already_ = std::move(key); }
   void pause();  // stops the running cut; update() starts it again once no scene is being opened
@@ -73,6 +77,7 @@ class CutJobs {
     std::uint64_t number = 0;  // the same key may be cut again
   };
 
+  const std::vector<ViewCard>* cards_known(ObjectId object, const std::string& key) const;
   const CutRun* known_run(ObjectId object, const std::string& key) const;
   CutRun* known_run(ObjectId object, const std::string& key);
   bool runs(const Order& order) const;
@@ -101,6 +106,7 @@ class CutJobs {
   Workspace& ws_;
   std::optional<Known> running_;
   std::deque<Known> known_;         // finished cuts, the newest last
+  std::deque<Known> opened_;        // cuts of opened work: cards with what they were in doubt of alone
   std::vector<Known> ahead_;        // cuts that were not asked for yet; without a result: one that failed
   std::uint64_t ahead_serial_ = 0;  // History::serial() for which no cut ahead is missing
   std::set<std::string> given_up_;  // keys of cuts that were cancelled or failed

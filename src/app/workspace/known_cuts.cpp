@@ -1,5 +1,8 @@
 // What is computed of a cut that is known: its pictures and sentences once more, after its file was opened or
 // a hand has changed it, and the likelihood for the heat map.
+#include <algorithm>
+#include <iterator>
+
 #include "app/picture/cut_pictures.h"
 #include "app/picture/cut_sentences.h"
 #include "app/workspace/cut_jobs.h"
@@ -62,8 +65,16 @@ std::vector<ViewCard> CutJobs::cards_of(const Order& order, const CutResult& res
 
 void CutJobs::take_cards(CutRun* run, const Order& order, const std::vector<std::uint8_t>& labels,
                          std::vector<ViewCard> cards) {
-  if (const CutRun* before = known_run(order.object, order.key_before))
-    keep_doubts(before->views, labels, &cards);
+  if (const std::vector<ViewCard>* before = cards_known(order.object, order.key_before))
+    keep_doubts(*before, labels, &cards);
+  const std::vector<ViewCard>* saved =
+      known_run(order.object, order.key) ? nullptr : cards_known(order.object, order.key);
+  if (saved) {  // the same sides, drawn again: what was looked at stays in doubt until the next stroke
+    std::vector<ViewCard> all = *saved;
+    for (ViewCard& card : all) card.looked_at = false;
+    keep_doubts(all, labels, &cards);
+    keep_looks(*saved, &cards);
+  }
   if (run->views_drawn) {  // a hand changed it, or it shows another change: neither is a stroke
     keep_doubts(run->views, labels, &cards);
     if (run->result && labels == (run->views_labels ? *run->views_labels : run->result->labels))
@@ -73,6 +84,41 @@ void CutJobs::take_cards(CutRun* run, const Order& order, const std::vector<std:
   run->views_before = order.before;
   run->views_drawn = true;
   for (ViewCard& card : run->views) card.serial = next_card_serial_++;
+}
+
+const std::vector<ViewCard>* CutJobs::cards_known(ObjectId object, const std::string& key) const {
+  if (const CutRun* run = known_run(object, key)) return &run->views;
+  for (const Known& opened : opened_)
+    if (opened.object == object && opened.run.key == key) return &opened.run.views;
+  return nullptr;
+}
+
+std::vector<DoubtfulSide> CutJobs::doubtful_sides() const {
+  std::vector<DoubtfulSide> sides;
+  for (const ObjectItem& object : ws_.document().objects) {
+    const CutRun* shown = run(object.id);
+    const std::vector<ViewCard>* cards = shown ? &shown->views : cards_known(object.id, object.cut_key);
+    if (!cards) continue;
+    const bool of_before = shown && !shown->views_drawn;  // looks at those end
+    for (const ViewCard& card : *cards)
+      if (of_before ? !card.looked_at && !card.open.empty() : card.looked_at || !card.open.empty())
+        sides.push_back({object.id, card.camera, card.looked_at, card.open});
+  }
+  return sides;
+}
+
+void CutJobs::take_doubtful_sides(std::span<const DoubtfulSide> sides) {
+  for (const DoubtfulSide& side : sides) {
+    const ObjectItem* object = ws_.document().find(side.object);
+    if (!object || object->cut_key.empty()) continue;
+    auto own = std::ranges::find(opened_, side.object, &Known::object);
+    if (own == opened_.end()) {
+      opened_.push_back({side.object, {}});
+      own = std::prev(opened_.end());
+      own->run.key = object->cut_key;
+    }
+    own->run.views.push_back({.camera = side.camera, .open = side.open, .looked_at = side.looked_at});
+  }
 }
 
 // Draws the views of the active object again where a hand changed what the cut gave, where they are to show

@@ -1,6 +1,7 @@
 // Messages for the message strip, and requests to the interface.
 #pragma once
 
+#include <deque>
 #include <string>
 
 namespace splatcut {
@@ -12,6 +13,12 @@ struct Message {
   std::string text;
   double time_s = 0;  // time by Workspace::clock_s
 };
+
+// The message that the strip shows: the newest, but not before one that warns could be read. Null: none.
+const Message* shown_message(const std::deque<Message>& messages, double now_s);
+// Adds what is known of an answer only later to the newest message: what is of the same object behind it,
+// else as a line of its own. Returns false, and adds nothing, where that message is not shown.
+bool add_to_shown(Message::Kind kind, const std::string& text, double now_s, std::deque<Message>* messages);
 
 // Requests that only the interface can fulfil.
 enum class UiRequest {

@@ -19,4 +19,8 @@ void Workspace::say(Message::Kind kind, std::string text) {
   if (messages.size() > kKept) messages.pop_front();
 }
 
+void Workspace::say_also(Message::Kind kind, const std::string& text) {
+  if (!add_to_shown(kind, text, clock_s, &messages)) say(kind, text);
+}
+
 }  // namespace splatcut

@@ -60,6 +60,8 @@ struct Workspace {
   EditContext context() const { return {*scene->cloud, graph.get(), {}, history.left()}; }
   void require_scene() const;  // throws Error without one
   void say(Message::Kind kind, std::string text);
+  // What comes by itself, not as the answer to what was done: beside the message that is shown.
+  void say_also(Message::Kind kind, const std::string& text);
 };
 
 }  // namespace splatcut

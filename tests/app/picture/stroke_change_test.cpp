@@ -81,7 +81,7 @@ bool anything(const glm::vec3& /*position*/) {
 }
 
 constexpr const char* kTaken = "what is red here was taken away, unseen from where you clicked or drew";
-constexpr const char* kAdded = "what is green here was added, unseen from where you clicked or drew";
+constexpr const char* kCameUnseen = "what is green here was added, unseen from where you clicked or drew";
 
 std::ptrdiff_t of_stroke(const std::vector<ViewCard>& cards) {
   return std::ranges::count_if(cards, &ViewCard::doubt_of_stroke);
@@ -129,7 +129,7 @@ TEST_CASE("thumbnails: what a click added out of its sight is green from behind,
     if (side_of(card) == kFront) CHECK(card.doubt.empty());
     if (side_of(card) != kBehind) continue;
     CHECK(pixels_of(card, kGreen) > 500);
-    CHECK(card.doubt == kAdded);
+    CHECK(card.doubt == kCameUnseen);
   }
 }
 

@@ -32,7 +32,7 @@ TEST_CASE("clicks: the wheel takes sizes that differ, and says where there is no
       MESSAGE(place.name, ": ", steps, " steps, then: ", artist.said());
       CHECK(steps < 60);
       const bool told =
-          artist.said().starts_with(notch > 0 ? "This is the largest of" : "This is the smallest of") ||
+          artist.said().starts_with(notch > 0 ? "This is the largest size" : "This is the smallest size") ||
           artist.said().find("one size alone") != std::string::npos;
       CHECK(told);
     }
@@ -188,7 +188,7 @@ TEST_CASE("clicks: at the ends there is no next size") {
   Artist artist(on_sample("mug", kOnMug));
   artist.click_on_it();
   for (const float notch : {1.0f, -1.0f}) {
-    for (int i = 0; i < 60 && artist.said().find(" sizes") == std::string::npos; ++i) {
+    for (int i = 0; i < 60 && artist.said().find("est size") == std::string::npos; ++i) {
       artist.app->handle(WheelTurned{notch, {.shift = true}});
       REQUIRE(artist.app.settle());
     }
@@ -222,11 +222,14 @@ TEST_CASE("clicks: a step of the size shows its outline at once and is computed 
   CHECK(clicks.known_sizes()->size == size - 2);
   CHECK(clicks.known_sizes()->count() == sizes);
   CHECK(artist.run().result->size == size - 2);
-  while (artist.said().find(" sizes") == std::string::npos) {
+  while (artist.said().find("est size") == std::string::npos) {
     artist.app.key(key::kPageDown);
     REQUIRE(artist.app.settle());
   }
-  CHECK(artist.said().ends_with(" of " + std::to_string(sizes) + " sizes"));
+  CHECK(artist.said().ends_with("smallest size"));
+  CHECK(clicks.size_wanted() == 0);
+  CHECK(clicks.known_sizes()->size == 0);
+  CHECK(clicks.known_sizes()->count() == sizes);
 }
 
 TEST_CASE(

@@ -70,7 +70,7 @@ TEST_CASE("words: a leap of the size is said, and at the end of sizes that most 
       static_cast<double>(count_flags(artist.labels())) > 0.95 * static_cast<double>(artist.labels().size());
   MESSAGE(count_flags(artist.labels()), " of ", artist.labels().size(), " by ", leaps, " leaps");
   artist.app.key(key::kPageUp);
-  REQUIRE(artist.said().find("This is the largest of") != std::string::npos);
+  REQUIRE(artist.said().find("This is the largest size") != std::string::npos);
   CHECK((artist.said().find("a box (4)") == std::string::npos) == nearly_all);
   CHECK((artist.said().find("nearly the whole scene") != std::string::npos) == nearly_all);
   step(key::kPageDown);
@@ -134,10 +134,10 @@ TEST_CASE("words: the outline of a right click ends where the view is isolated o
 }
 
 TEST_CASE("words: nearly the whole scene is no hint to a box, nor is a leap without a step") {
-  CHECK(why_no_larger(18, true, 96, 100) ==
-        "This is the largest of 18 sizes: nearly the whole scene is taken. Page Down takes less");
-  CHECK(why_no_larger(18, true, 90, 100) == "This is the largest of 18 sizes; a box (4) may find more");
-  CHECK(why_no_larger(18, false, 90, 100) == "This is the largest of 18 sizes");
+  CHECK(why_no_larger(true, 96, 100) ==
+        "This is the largest size: nearly the whole scene is taken. Page Down takes less");
+  CHECK(why_no_larger(true, 90, 100) == "This is the largest size; a box (4) may find more");
+  CHECK(why_no_larger(false, 90, 100) == "This is the largest size");
   CHECK(leap_of_size(100, 401).find("no size between was found") != std::string::npos);
   CHECK(leap_of_size(401, 100) == leap_of_size(100, 401));
   CHECK(leap_of_size(100, 400).empty());
@@ -197,4 +197,41 @@ TEST_CASE(
       break;
     }
   MESSAGE(took, " of ", tried, " clicks took something");
+}
+
+TEST_CASE("words: the outline that the pointer asks for while a new look is drawn comes by itself") {
+  Hands hands = hands_on_sample();
+  const auto outlined = [&] { return hands.studio().viewport().style(0).highlight != nullptr; };
+  const glm::vec2 apple = hands.app.screen_of(kOnApple);
+  const auto rests_at = [&](float away) {
+    hands.app.move(apple + away);
+    REQUIRE(hands.app.settle());
+    hands.app.frames(2);
+    REQUIRE(hands.app.settle());
+  };
+  hands.app.wait_for_message_to_go();
+  rests_at(16);
+  REQUIRE(outlined());
+  SUBCASE("another background") {
+    hands.studio().apply(NextBackdrop{});
+  }
+  SUBCASE("the checker") {
+    ViewState view = hands.studio().view();
+    view.checker = true;
+    hands.studio().apply(SetView{view});
+  }
+  SUBCASE("alone") {
+    ViewState view = hands.studio().view();
+    view.display = DisplayMode::kIsolate;
+    hands.studio().apply(SetView{view});
+  }
+  SUBCASE("alone, with the key") {
+    hands.app.key('I');
+  }
+  SUBCASE("alone, while frames are drawn") {
+    hands.app.key('I');
+    hands.app.frames(3);
+  }
+  rests_at(-14);
+  CHECK(outlined());
 }

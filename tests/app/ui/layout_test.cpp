@@ -134,6 +134,8 @@ TEST_CASE(
     HeadlessApp app(width, height, scale, options);
     app.frames(4);
     const UiRect area = app->interface().viewport(), page = app.window("start");
+    // The panel tells of a scene: a small window gives its room to the page until there is one.
+    CHECK((area.max.x == static_cast<float>(width) / scale) == (static_cast<float>(width) / scale < 880));
     CHECK(page.min.x >= area.min.x);
     CHECK(page.max.x <= area.max.x);
     CHECK(page.min.y >= area.min.y);

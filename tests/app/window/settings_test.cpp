@@ -27,6 +27,7 @@ QUICK_CASE("settings",
   settings.view.fly_speed = 2.5f;
   settings.ui_scale = 1.25f;
   settings.recent = {place.path()};
+  settings.export_folder = place / "exported";
   save_settings(file, settings);
   const Settings read = load_settings(file);
   CHECK(read.width == 1200);
@@ -39,6 +40,7 @@ QUICK_CASE("settings",
   CHECK(read.view.fly_speed == 2.5f);
   CHECK(read.ui_scale == 1.25f);
   CHECK(read.recent == settings.recent);
+  CHECK(read.export_folder == settings.export_folder);
   settings.position.reset();
   save_settings(file, settings);
   CHECK_FALSE(load_settings(file).position);

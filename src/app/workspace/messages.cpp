@@ -1,0 +1,65 @@
+#include "app/workspace/messages.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace splatcut {
+
+namespace {
+
+constexpr double kShownSeconds = 7;
+
+// Until somebody has noticed it and read it, at 17 letters a second.
+double reading_s(const Message& message) {
+  constexpr double kNoticedSeconds = 1, kSecondsPerLetter = 0.06;
+  return kNoticedSeconds + kSecondsPerLetter * static_cast<double>(message.text.size());
+}
+
+bool warns(const Message& message) {
+  return message.kind == Message::Kind::kRefused || message.kind == Message::Kind::kError;
+}
+
+double shown_s(const Message& message) {
+  return std::max(kShownSeconds, reading_s(message));
+}
+
+}  // namespace
+
+const Message* shown_message(const std::deque<Message>& messages, double now_s) {
+  const Message *shown = nullptr, *waiting = nullptr;  // the newest that waits until `shown` could be read
+  double since_s = 0;
+  const auto read_at_s = [&] { return since_s + std::min(reading_s(*shown), kShownSeconds); };
+  const auto take_waiting = [&](double at_s) {
+    if (!waiting || read_at_s() > at_s) return;
+    since_s = read_at_s();
+    shown = std::exchange(waiting, nullptr);
+  };
+  for (const Message& message : messages) {
+    if (message.time_s > now_s) break;
+    take_waiting(message.time_s);
+    if (shown && warns(*shown) && !warns(message) && message.time_s < read_at_s()) {
+      waiting = &message;
+      continue;
+    }
+    shown = &message;
+    since_s = message.time_s;
+    waiting = nullptr;
+  }
+  take_waiting(now_s);
+  return shown && now_s - since_s <= shown_s(*shown) ? shown : nullptr;
+}
+
+bool add_to_shown(Message::Kind kind, const std::string& text, double now_s, std::deque<Message>* messages) {
+  if (messages->empty() || shown_message(*messages, now_s) != &messages->back()) return false;
+  Message& last = messages->back();
+  const std::string whose = text.substr(0, text.find(": ") + 2);  // said once
+  const bool same = text.find(": ") != std::string::npos && last.text.starts_with(whose);
+  const std::string more = same ? text.substr(whose.size()) : text;
+  if (last.text.ends_with(more)) return true;
+  last.text += (same ? "; " : "\n") + more;
+  last.kind = std::max(kind, last.kind == Message::Kind::kDone ? Message::Kind::kInfo : last.kind);
+  last.time_s = now_s;
+  return true;
+}
+
+}  // namespace splatcut

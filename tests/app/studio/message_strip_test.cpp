@@ -1,0 +1,59 @@
+// Which message the window shows: none is gone before it could be read because of what came by itself.
+#include <doctest/doctest.h>
+
+#include <deque>
+#include <string>
+
+#include "app/workspace/messages.h"
+#include "hands.h"
+
+using namespace splatcut;
+using namespace splatcut::testing;
+
+using Kind = Message::Kind;
+
+TEST_CASE(
+    "messages: a warning stays until it could be read, then the newest of what came meanwhile is shown") {
+  const std::string warning = "That changed nothing. Click nearer to what is wrong";  // 4 s
+  const auto text_at = [](const std::deque<Message>& messages, double now_s) {
+    const Message* shown = shown_message(messages, now_s);
+    return shown ? shown->text : std::string();
+  };
+  std::deque<Message> messages = {{Kind::kRefused, warning, 10}, {Kind::kDone, "saved", 10.5}};
+  CHECK(text_at(messages, 9) == "");
+  CHECK(text_at(messages, 10.5) == warning);
+  CHECK(text_at(messages, 13.9) == warning);
+  CHECK(text_at(messages, 14.2) == "saved");
+  CHECK(text_at(messages, 20.9) == "saved");  // its own seven seconds
+  CHECK(text_at(messages, 21.2) == "");
+  messages.push_back({Kind::kInfo, "edges", 12});
+  CHECK(text_at(messages, 13.9) == warning);
+  CHECK(text_at(messages, 14.2) == "edges");
+  messages.push_back({Kind::kError, "the disk is full", 12.5});  // says more than the first
+  CHECK(text_at(messages, 12.6) == "the disk is full");
+  CHECK(text_at(messages, 19.4) == "the disk is full");
+  CHECK(text_at(messages, 19.6) == "");  // what came before it is not shown after it
+}
+
+TEST_CASE("messages: what is known of an answer later stands beside it, or alone once that is gone") {
+  std::deque<Message> messages = {{Kind::kDone, "Mug: 1,200 Gaussians cut out in 0.4 s", 3}};
+  REQUIRE(add_to_shown(Kind::kInfo, "Mug: sides in doubt are marked", 4, &messages));
+  CHECK(messages.back().text == "Mug: 1,200 Gaussians cut out in 0.4 s; sides in doubt are marked");
+  CHECK(messages.back().kind == Kind::kInfo);  // no tick
+  REQUIRE(add_to_shown(Kind::kInfo, "Clean cuts nothing off Mug: no side shows it", 5, &messages));
+  CHECK(messages.back().text.ends_with("are marked\nClean cuts nothing off Mug: no side shows it"));
+  CHECK(messages.size() == 1);
+  CHECK(shown_message(messages, 11.9) == &messages.back());  // time to read what came
+  CHECK_FALSE(add_to_shown(Kind::kInfo, "Mug: later", 60, &messages));
+  CHECK(messages.size() == 1);
+}
+
+TEST_CASE("messages: the answer to a click is shown with what the sides say of it, and with the edges") {
+  Hands hands = hands_on_sample();
+  hands.app.click(hands.app.screen_of(kOnOrange), PointerButton::kLeft);
+  REQUIRE(hands.app.settle());
+  hands.app.click(hands.app.screen_of(kOnOrange), PointerButton::kRight);
+  REQUIRE(hands.app.settle());
+  CHECK(hands.said().find(" added and ") != std::string::npos);
+  CHECK(hands.said().find("; sides in doubt are marked in the thumbnails") != std::string::npos);
+}
