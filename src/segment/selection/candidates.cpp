@@ -145,13 +145,15 @@ void Asking::make_chains() {
   }
 }
 
-// The observing views', and the click's own view as one more of them.
+// The observing views', and the click's own view as one more of them, but for a close-up: it may crop what is
+// meant, and so speak against it.
 void Asking::sum_looks() {
   const std::vector<std::vector<PartLooks>> here = looks_in(parts_, picture_of(click_.view));
   for (std::size_t t = 0; t < parts_.trees.size(); ++t) {
     const std::vector<PartLooks>& elsewhere = parts_.trees[t].looks;
+    const bool own = !click_.view.close_up || elsewhere.empty() || !(elsewhere[click_.leaf].area > 0);
     for (const std::uint32_t node : out_.chains[t].nodes) {
-      PartLooks& looks = out_.chains[t].looks.emplace_back(here[t][node]);
+      PartLooks& looks = out_.chains[t].looks.emplace_back(own ? here[t][node] : PartLooks{});
       if (!elsewhere.empty()) looks += elsewhere[node];
     }
   }

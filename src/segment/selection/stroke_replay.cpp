@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "segment/masks/mask_tools.h"
+#include "segment/superpoints/photographed.h"
 
 namespace splatcut {
 
@@ -51,6 +52,15 @@ LeafView* StrokeReplay::view(const Drawer& drawer, const CameraStroke& said, int
   return &views_.front().view;
 }
 
+// True if the view is one, at what it shows there.
+bool StrokeReplay::close_up(const LeafView& view, const glm::vec2& pixel) const {
+  const glm::ivec2 at = glm::clamp(glm::ivec2(pixel), glm::ivec2(0),
+                                   glm::ivec2(view.camera.width_px - 1, view.camera.height_px - 1));
+  const float depth = view.depth.at(at.x, at.y);
+  return depth > 0 &&
+         is_close_up(view.camera, photographs_, view.camera.world_from_pixel(glm::vec2(at) + 0.5f, depth));
+}
+
 // What is small in the view is looked at with more pixels: by what is selected already, else by what the
 // stroke selects. By its likeliest meaning in its own size, also where others are taken: other pixels would
 // offer other meanings and sizes.
@@ -78,7 +88,9 @@ std::shared_ptr<const ClickSelection> StrokeReplay::after(const Drawer& drawer, 
     }
     auto next = std::make_shared<ClickSelection>(before);
     const float factor = static_cast<float>(width_px) / static_cast<float>(said.camera.width_px);
-    next->apply(*seen, scaled({said.stroke}, factor).front());
+    const Stroke stroke = scaled({said.stroke}, factor).front();
+    if (!before.any()) seen->close_up = close_up(*seen, stroke.points_px.front());
+    next->apply(*seen, stroke);
     if (said.earlier) next->keep_sizes_of(before);
     if (settled || width_px > camera.width_px) return next;
     width_px = width_to_see_it(!before.any() && options_.choice != 0 && !next->meanings().empty()

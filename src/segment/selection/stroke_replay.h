@@ -39,9 +39,11 @@ class StrokeReplay {
  public:
   static constexpr std::size_t kMostBytes = std::size_t{256} << 20;  // some 25 views at 320 pixels
 
-  // parts must outlive this. most_bytes: of the views that are kept; the last used one always is.
-  explicit StrokeReplay(const PartHierarchy& parts, std::size_t most_bytes = kMostBytes)
-      : parts_(parts), most_bytes_(most_bytes) {}
+  // parts and photographs (cameras of the capture, where known) must outlive this. most_bytes: of the views
+  // that are kept; the last used one always is.
+  explicit StrokeReplay(const PartHierarchy& parts, std::size_t most_bytes = kMostBytes,
+                        std::span<const Camera> photographs = {})
+      : parts_(parts), photographs_(photographs), most_bytes_(most_bytes) {}
 
   // Returns the selection after all strokes, which is valid until the next call. If cancelled, it must not be
   // used.
@@ -61,7 +63,10 @@ class StrokeReplay {
   std::shared_ptr<const ClickSelection> after(const Drawer& drawer, const ClickSelection& before,
                                               const CameraStroke& said, const Job& job);
 
+  bool close_up(const LeafView& view, const glm::vec2& pixel) const;
+
   const PartHierarchy& parts_;
+  std::span<const Camera> photographs_;
   std::size_t most_bytes_;
   std::list<KnownView> views_;  // views that are kept, the last used first
   ReplayOptions options_;

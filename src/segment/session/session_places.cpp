@@ -7,6 +7,7 @@
 #include "segment/masks/mask_tools.h"
 #include "segment/session/kept_neighbourhood.h"
 #include "segment/session/reference_mask.h"
+#include "segment/superpoints/photographed.h"
 
 namespace splatcut {
 
@@ -122,8 +123,10 @@ Place Session::seen_from(const Camera& eye, const glm::vec3& point_world) {
 Place Session::first_place(const Camera& eye, const Box& must_hold) const {
   Place place = seen_from(eye, must_hold.centre());
   // What is clicked from nearer than it was photographed does not fit into a cell of that distance.
-  if (const auto usual = photographed_from(whole_, must_hold.centre()))
-    place.cell = cell_around(must_hold.centre(), std::max(place.cell.level, level_above(*usual)));
+  if (const auto usual = photographed(whole_.photographs, must_hold.centre()))
+    place.cell = cell_around(must_hold.centre(), std::max(place.cell.level, level_above(usual->distance)));
+  // A close-up would say of what it cuts off that nobody means it.
+  place.eye = widened(eye, whole_.photographs, must_hold.centre());
   const auto gaussians = [&](const Cell& cell) {
     return whole_.blocks->count_in(*scene_.cloud, cell.box_world());
   };

@@ -5,20 +5,11 @@
 #include <cmath>
 
 #include "segment/superpoints/orbit.h"
+#include "segment/superpoints/photographed.h"
 
 namespace splatcut {
 
 namespace {
-
-constexpr std::ptrdiff_t kEnoughGiven = 3;  // photographs, to observe a place by them alone
-
-bool shows(const Camera& camera, const glm::vec3& point_world) {
-  const glm::vec3 at = camera.camera_from_world(point_world);
-  if (!(at.z > 0)) return false;
-  const float x = camera.fx_px * at.x / at.z + camera.cx_px, y = camera.fy_px * at.y / at.z + camera.cy_px;
-  return x >= 0 && y >= 0 && x < static_cast<float>(camera.width_px) &&
-         y < static_cast<float>(camera.height_px);
-}
 
 // The slab between a face of the cell and an eighth of a side beyond it.
 Box beyond(const Box& box, int axis, bool high, float side) {
@@ -65,16 +56,6 @@ std::size_t Neighbourhood::bytes() const {
   return cloud ? kPerGaussian * cloud->size() : 0;
 }
 
-std::optional<float> photographed_from(const WholeScene& scene, const glm::vec3& point_world) {
-  std::vector<float> distances;
-  for (const Camera& camera : scene.photographs)
-    if (shows(camera, point_world)) distances.push_back(glm::distance(camera.centre_world(), point_world));
-  if (std::ssize(distances) < kEnoughGiven) return std::nullopt;
-  const auto median = distances.begin() + (std::ssize(distances) - 1) / 2;
-  std::ranges::nth_element(distances, median);
-  return *median;
-}
-
 std::vector<Camera> views_around(const WholeScene& scene, const Place& place,
                                  const ObservingOptions& options) {
   std::vector<Camera> views{limited_to_width(place.eye, options.width_px)}, given;
@@ -84,7 +65,7 @@ std::vector<Camera> views_around(const WholeScene& scene, const Place& place,
   const std::size_t n = std::min<std::size_t>(given.size(), static_cast<std::size_t>(options.most_given));
   for (std::size_t i = 0; i < n; ++i)
     views.push_back(limited_to_width(given[i * given.size() / n], options.width_px));
-  if (std::ssize(given) >= kEnoughGiven) return views;
+  if (std::ssize(given) >= kEnoughPhotographs) return views;
   OrbitOptions orbit;
   orbit.views = options.ring;
   orbit.elevation_swing_rad = options.elevation_swing_rad;

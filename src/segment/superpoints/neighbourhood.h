@@ -43,7 +43,7 @@ int level_above(float length);
 struct Place {
   Cell cell;           // whose Gaussians are prepared
   Cell looked_at;      // what observing views look at
-  Camera eye;          // the first of them: from where the place was clicked
+  Camera eye;          // the first of them: from where the place was clicked, see Session::first_place()
   bool whole = false;  // all Gaussians of the scene, whatever the cell
   bool operator==(const Place& other) const;
 };
@@ -68,9 +68,6 @@ struct Neighbourhood {
 // options: null where no parts are asked for. Cancelled: must not be used.
 Neighbourhood prepare_neighbourhood(const WholeScene& scene, const Place& place,
                                     const PrepareOptions* options, const Job& job = {});
-
-// Median distance of the photographs that show the point, scene units; nothing where fewer than three do.
-std::optional<float> photographed_from(const WholeScene& scene, const glm::vec3& point_world);
 
 // Views that observe a place: its own, then given cameras that show it or a ring.
 std::vector<Camera> views_around(const WholeScene& scene, const Place& place,

@@ -87,7 +87,7 @@ TEST_CASE("selection: a first click's terms of all views, worked out by hand") {
   // The click's view is four stripes of 100 pixels at one depth, each touching the frame. Elsewhere the left
   // pair covers .04 of a picture, free of the frame, with a border of 1.2 sides before something farther.
   PartHierarchy parts = four_leaves();
-  const LeafView view = stripes(parts);
+  LeafView view = stripes(parts);
   const auto terms_of_pair = [&] {
     const auto found =
         ClickSelection(parts, borders_alone()).considered(view, {5.5f, 5.5f}, true, {.all_terms = true});
@@ -110,6 +110,15 @@ TEST_CASE("selection: a first click's terms of all views, worked out by hand") {
   CHECK(weight(all, Term::kFrame) == doctest::Approx(frame_here / (side_here + 0.2)));
   CHECK(weight(all, Term::kLarge) == doctest::Approx(std::log((0.25 + 0.0016) / (0.5 + 0.04) / 0.35)));
   CHECK(weight(all, Term::kSmall) == 0);
+  // A close-up counts only where nothing else shows the clicked leaf.
+  view.close_up = true;
+  CHECK(terms_of_pair() == all);
+  parts.trees[0].looks[0].area = 0.02f;
+  const TermValues elsewhere = terms_of_pair();
+  CHECK(weight(elsewhere, Term::kNoEdge) == 0);
+  CHECK(weight(elsewhere, Term::kCropped) == 0);
+  CHECK(weight(elsewhere, Term::kFrame) == 0);
+  CHECK(weight(elsewhere, Term::kLarge) == 0);
 }
 
 TEST_CASE("selection: how views elsewhere show a part decides what a first click means") {

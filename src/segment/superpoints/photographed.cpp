@@ -1,0 +1,66 @@
+#include "segment/superpoints/photographed.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/ranks.h"
+
+namespace splatcut {
+
+namespace {
+
+constexpr float kCloseUp = 1.5f;  // times the picture's own breadth
+constexpr float kWidest = 3;      // times its own: the sides of wider pictures are stretched
+
+float breadth_at(const Camera& camera, const glm::vec3& point_world) {
+  const float area_px = static_cast<float>(camera.width_px) * static_cast<float>(camera.height_px);
+  return std::sqrt(area_px) * glm::distance(camera.centre_world(), point_world) / camera.fx_px;
+}
+
+// Breadth of the photographs over that of the picture; 1 where it is not known.
+float too_narrow(const Camera& camera, std::span<const Camera> photographs, const glm::vec3& point_world) {
+  const auto usual = photographed(photographs, point_world);
+  return usual ? usual->breadth / std::max(breadth_at(camera, point_world), 1e-15f) : 1;
+}
+
+}  // namespace
+
+bool shows(const Camera& camera, const glm::vec3& point_world) {
+  const glm::vec3 at = camera.camera_from_world(point_world);
+  if (!(at.z > 0)) return false;
+  const glm::vec2 pixel = camera.pixel_from_camera(at);
+  return pixel.x >= 0 && pixel.y >= 0 && pixel.x < static_cast<float>(camera.width_px) &&
+         pixel.y < static_cast<float>(camera.height_px);
+}
+
+std::optional<Photographed> photographed(std::span<const Camera> photographs, const glm::vec3& point_world) {
+  std::vector<float> distances, breadths;
+  for (const Camera& camera : photographs) {
+    if (!shows(camera, point_world)) continue;
+    distances.push_back(glm::distance(camera.centre_world(), point_world));
+    breadths.push_back(breadth_at(camera, point_world));
+  }
+  if (std::ssize(distances) < kEnoughPhotographs) return std::nullopt;
+  return Photographed{quantile(&distances, 0.5f), quantile(&breadths, 0.5f)};
+}
+
+bool is_close_up(const Camera& camera, std::span<const Camera> photographs, const glm::vec3& point_world) {
+  return too_narrow(camera, photographs, point_world) > kCloseUp;
+}
+
+Camera widened(const Camera& camera, std::span<const Camera> photographs, const glm::vec3& point_world) {
+  const float factor = too_narrow(camera, photographs, point_world);
+  if (!(factor > kCloseUp)) return camera;
+  const float margin = (std::min(factor, kWidest) - 1) / 2;
+  const int left_px = static_cast<int>(margin * static_cast<float>(camera.width_px));
+  const int top_px = static_cast<int>(margin * static_cast<float>(camera.height_px));
+  Camera wide = camera;
+  wide.width_px += 2 * left_px;
+  wide.height_px += 2 * top_px;
+  wide.cx_px += static_cast<float>(left_px);
+  wide.cy_px += static_cast<float>(top_px);
+  return wide;
+}
+
+}  // namespace splatcut
