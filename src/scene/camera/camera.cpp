@@ -82,6 +82,15 @@ Camera resized(const Camera& camera, int width_px, int height_px) {
   return out;
 }
 
+Camera with_margins(const Camera& camera, const Margins& margins) {
+  Camera out = camera;
+  out.width_px += margins.left_px + margins.right_px;
+  out.height_px += margins.top_px + margins.bottom_px;
+  out.cx_px += static_cast<float>(margins.left_px);
+  out.cy_px += static_cast<float>(margins.top_px);
+  return out;
+}
+
 Camera limited_to_width(const Camera& camera, int max_width_px) {
   if (camera.width_px <= max_width_px) return camera;
   const double s = static_cast<double>(max_width_px) / camera.width_px;

@@ -52,6 +52,14 @@ Camera look_at(const glm::vec3& position, const glm::vec3& target, const glm::ve
 // ratio does.
 Camera resized(const Camera& camera, int width_px, int height_px);
 
+struct Margins {
+  int left_px = 0, top_px = 0, right_px = 0, bottom_px = 0;
+  bool any() const { return left_px + top_px + right_px + bottom_px > 0; }
+};
+
+// The same view with so many pixels more on each side, each at least 0.
+Camera with_margins(const Camera& camera, const Margins& margins);
+
 // resized() to the given width, height by the same aspect ratio, never larger than the camera itself.
 Camera limited_to_width(const Camera& camera, int max_width_px);
 

@@ -77,6 +77,8 @@ class ClickSelection {
   std::size_t size() const { return sizes_.size; }
   std::size_t likeliest_size() const { return sizes_.likeliest; }
   std::span<const Mask> size_masks() const;  // of each size, in that stroke's view
+  // Leaves of the masks of sizes what lies in this part of the last stroke's view.
+  void crop_sizes(const PixelRect& part);
   // The last stroke was made before one that is in `other` already: its sizes are those to choose from.
   void keep_sizes_of(const ClickSelection& other) { sizes_ = other.sizes_; }
   // How alike what was taken of the first stroke and all that it can mean are: certainty_of() in its view. 1

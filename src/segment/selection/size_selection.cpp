@@ -61,6 +61,17 @@ std::vector<std::uint8_t> ClickSelection::note_sizes(const LeafView& view, const
   return sizes.leaves(size);
 }
 
+void ClickSelection::crop_sizes(const PixelRect& part) {
+  if (!sizes_.masks) return;
+  std::vector<Mask> masks;
+  for (const Mask& mask : *sizes_.masks) {
+    Mask& cropped = masks.emplace_back(part.width(), part.height());
+    for (int y = 0; y < part.height(); ++y)
+      for (int x = 0; x < part.width(); ++x) cropped.at(x, y) = mask.at(part.x0 + x, part.y0 + y);
+  }
+  sizes_.masks = std::make_shared<const std::vector<Mask>>(std::move(masks));
+}
+
 // Notes the sizes of what a correction changes. meant: what it changes by itself. The smallest size is the
 // spot alone.
 std::vector<std::uint8_t> ClickSelection::corrected_leaves(const Click& click, const Answers& found,

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "segment/masks/mask_tools.h"
+#include "segment/selection/wide_view.h"
 #include "segment/superpoints/photographed.h"
 
 namespace splatcut {
@@ -16,6 +17,30 @@ bool same_stroke(const CameraStroke& a, const CameraStroke& b) {
          a.stroke.label == b.stroke.label && a.stroke.radius_px == b.stroke.radius_px &&
          a.stroke.points_px == b.stroke.points_px && a.stroke.size_step == b.stroke.size_step &&
          a.earlier == b.earlier;
+}
+
+// The stroke in a view that shows so much more.
+CameraStroke with_margins(const CameraStroke& said, const Margins& margins) {
+  CameraStroke wide = said;
+  wide.camera = with_margins(said.camera, margins);
+  for (glm::vec2& point : wide.stroke.points_px) point += glm::vec2(margins.left_px, margins.top_px);
+  return wide;
+}
+
+// Greatest width of the rasterised view: details of the picture itself shall not get lost.
+int work_width(int work_width_px, const Camera& picture, const Camera& wide) {
+  constexpr float kMostFiner = 2;
+  const float wider = std::max(static_cast<float>(wide.width_px) / static_cast<float>(picture.width_px),
+                               static_cast<float>(wide.height_px) / static_cast<float>(picture.height_px));
+  return static_cast<int>(std::min(kMostFiner, wider) * static_cast<float>(work_width_px));
+}
+
+// Where the picture lies in a mask of the wider view.
+PixelRect picture_in(const Mask& mask, const Camera& picture, const Camera& wide, const Margins& margins) {
+  const auto x = [&](int px) { return px * mask.width() / wide.width_px; };
+  const auto y = [&](int px) { return px * mask.height() / wide.height_px; };
+  const int x0 = x(margins.left_px), y0 = y(margins.top_px);
+  return {x0, y0, x0 + std::max(1, x(picture.width_px)), y0 + std::max(1, y(picture.height_px))};
 }
 
 }  // namespace
@@ -64,12 +89,14 @@ bool StrokeReplay::close_up(const LeafView& view, const glm::vec2& pixel) const 
 // What is small in the view is looked at with more pixels: by what is selected already, else by what the
 // stroke selects. By its likeliest meaning in its own size, also where others are taken: other pixels would
 // offer other meanings and sizes.
-std::shared_ptr<const ClickSelection> StrokeReplay::after(const Drawer& drawer, const ClickSelection& before,
-                                                          const CameraStroke& said, const Job& job) {
+std::shared_ptr<ClickSelection> StrokeReplay::after_in_view(const Drawer& drawer,
+                                                            const ClickSelection& before,
+                                                            const CameraStroke& said, int work_width_px,
+                                                            const Job& job) {
   const auto width_to_see_it = [&](const Mask& mask) {
     return width_to_see(mask, options_.least_object_px, said.camera.width_px);
   };
-  const Camera camera = limited_to_width(said.camera, options_.work_width_px);
+  const Camera camera = limited_to_width(said.camera, work_width_px);
   const Mask shown_before = before.any()
                                 ? thresholded(render_labels(drawer, camera, before.labels(), job), 0.5f)
                                 : Mask(camera.width_px, camera.height_px);
@@ -101,6 +128,21 @@ std::shared_ptr<const ClickSelection> StrokeReplay::after(const Drawer& drawer, 
     if (width_px == camera.width_px) return next;
   }
   return nullptr;
+}
+
+std::shared_ptr<const ClickSelection> StrokeReplay::after(const Drawer& drawer, const ClickSelection& before,
+                                                          const CameraStroke& said, const Job& job) {
+  const int work_width_px = options_.work_width_px;
+  const Margins margins =
+      before.any() && said.stroke.is_click()
+          ? margins_of_correction(said.camera, drawer.cloud(), before.labels(), photographs_)
+          : Margins{};
+  if (!margins.any()) return after_in_view(drawer, before, said, work_width_px, job);
+  const CameraStroke wide = with_margins(said, margins);
+  auto next = after_in_view(drawer, before, wide, work_width(work_width_px, said.camera, wide.camera), job);
+  if (next && !said.earlier && !next->size_masks().empty())
+    next->crop_sizes(picture_in(next->size_masks().front(), said.camera, wide.camera, margins));
+  return next;
 }
 
 const ClickSelection& StrokeReplay::replay(const Drawer& drawer, std::span<const CameraStroke> strokes,

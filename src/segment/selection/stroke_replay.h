@@ -2,7 +2,8 @@
 //
 // In: strokes with their cameras. Out: labels, and the Gaussians that the strokes themselves decide, see
 // click_selection.h. All views count alike; the first one only decides what the first click can mean. Views
-// are rasterised no wider than asked for, or wider if the object is small in them. The replay keeps
+// are rasterised no wider than asked for, or wider if the object is small in them, or if a correction's view
+// crops it: then more than the view is looked at (wide_view.h). The replay keeps
 // selections of the last replay, so that one more stroke costs one stroke. The result depends on the strokes
 // alone.
 #pragma once
@@ -59,10 +60,12 @@ class StrokeReplay {
   };
   // View of the Gaussians that the stroke affects; null if cancelled.
   LeafView* view(const Drawer& drawer, const CameraStroke& said, int width_px, const Job& job);
-  // Selection after one more stroke; null if cancelled.
+  // Selection after one more stroke, looked at in its own view or a wider one; null if cancelled.
   std::shared_ptr<const ClickSelection> after(const Drawer& drawer, const ClickSelection& before,
                                               const CameraStroke& said, const Job& job);
 
+  std::shared_ptr<ClickSelection> after_in_view(const Drawer& drawer, const ClickSelection& before,
+                                                const CameraStroke& said, int work_width_px, const Job& job);
   bool close_up(const LeafView& view, const glm::vec2& pixel) const;
 
   const PartHierarchy& parts_;

@@ -126,7 +126,7 @@ Place Session::first_place(const Camera& eye, const Box& must_hold) const {
   if (const auto usual = photographed(whole_.photographs, must_hold.centre()))
     place.cell = cell_around(must_hold.centre(), std::max(place.cell.level, level_above(usual->distance)));
   // A close-up would say of what it cuts off that nobody means it.
-  place.eye = widened(eye, whole_.photographs, must_hold.centre());
+  place.eye = with_margins(eye, margins_of_close_up(eye, whole_.photographs, must_hold.centre()));
   const auto gaussians = [&](const Cell& cell) {
     return whole_.blocks->count_in(*scene_.cloud, cell.box_world());
   };

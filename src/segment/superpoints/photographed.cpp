@@ -49,18 +49,14 @@ bool is_close_up(const Camera& camera, std::span<const Camera> photographs, cons
   return too_narrow(camera, photographs, point_world) > kCloseUp;
 }
 
-Camera widened(const Camera& camera, std::span<const Camera> photographs, const glm::vec3& point_world) {
+Margins margins_of_close_up(const Camera& camera, std::span<const Camera> photographs,
+                            const glm::vec3& point_world) {
   const float factor = too_narrow(camera, photographs, point_world);
-  if (!(factor > kCloseUp)) return camera;
+  if (!(factor > kCloseUp)) return {};
   const float margin = (std::min(factor, kWidest) - 1) / 2;
-  const int left_px = static_cast<int>(margin * static_cast<float>(camera.width_px));
-  const int top_px = static_cast<int>(margin * static_cast<float>(camera.height_px));
-  Camera wide = camera;
-  wide.width_px += 2 * left_px;
-  wide.height_px += 2 * top_px;
-  wide.cx_px += static_cast<float>(left_px);
-  wide.cy_px += static_cast<float>(top_px);
-  return wide;
+  const int beside_px = static_cast<int>(margin * static_cast<float>(camera.width_px));
+  const int above_px = static_cast<int>(margin * static_cast<float>(camera.height_px));
+  return {beside_px, above_px, beside_px, above_px};
 }
 
 }  // namespace splatcut

@@ -28,8 +28,9 @@ std::optional<Photographed> photographed(std::span<const Camera> photographs, co
 // meant: its breadth there is less than two thirds of theirs.
 bool is_close_up(const Camera& camera, std::span<const Camera> photographs, const glm::vec3& point_world);
 
-// The camera itself, or with a picture that is_close_up() what lies around the picture, too: to the breadth
-// of the photographs, but at most three times its own.
-Camera widened(const Camera& camera, std::span<const Camera> photographs, const glm::vec3& point_world);
+// With these margins a picture that is_close_up() has the breadth of the photographs, or three times its own
+// if that is less. None around another.
+Margins margins_of_close_up(const Camera& camera, std::span<const Camera> photographs,
+                            const glm::vec3& point_world);
 
 }  // namespace splatcut

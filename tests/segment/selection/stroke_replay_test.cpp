@@ -190,3 +190,48 @@ TEST_CASE("selection: replayed strokes give what strokes one by one give, on any
   CHECK(small.view_bytes() > 0);
   CHECK(small.view_bytes() < 0.6 * static_cast<double>(large.view_bytes()));
 }
+
+// From near the picture holds the clicked leaves of the plant and little of the rest of it.
+TEST_CASE("selection: a correction means from near what it means from where the view holds the whole thing") {
+  const Table& t = table();
+  const auto middle_of = [&](const char* object) {
+    const Target on = target(t, object);
+    const glm::vec2 at = robot_click(on.truth, Mask(on.truth.width(), on.truth.height()))->points_px.front();
+    return CameraStroke{on.camera, click(at, SeedLabel::kObject)};
+  };
+  const CameraStroke far = middle_of("plant");
+  const glm::vec2 at = far.stroke.points_px.front();
+  const auto depth_in = [&](const Camera& camera) {
+    return leaf_view(t.cloud, t.prepared.parts, camera)
+        .depth.at(static_cast<int>(at.x), static_cast<int>(at.y));
+  };
+  const float depth = depth_in(far.camera);
+  CameraStroke near = far;
+  near.camera = approached(far.camera, far.camera.world_from_pixel(at, depth), 0.35f);
+  REQUIRE(depth_in(near.camera) == doctest::Approx(0.35 * depth).epsilon(0.05));  // the same leaf
+  for (const char* other : {"mug", "apple", "books", "lamp"}) {
+    INFO(other);
+    const auto after = [&](const CameraStroke& correction) {
+      StrokeReplay replay(t.prepared.parts, StrokeReplay::kMostBytes, t.scene.cameras);
+      return ClickSelection(
+          replay.replay(t.cloud, std::vector<CameraStroke>{middle_of(other), correction}, {}));
+    };
+    const ClickSelection from_far = after(far), from_near = after(near);
+    std::size_t both = 0, either = 0;
+    for (std::size_t g = 0; g < t.cloud.size(); ++g) {
+      both += from_far.labels()[g] && from_near.labels()[g];
+      either += from_far.labels()[g] || from_near.labels()[g];
+    }
+    CHECK(static_cast<double>(both) > 0.98 * static_cast<double>(either));
+    // Its sizes are outlined in the picture that was clicked.
+    REQUIRE(!from_near.size_masks().empty());
+    for (const Mask& size : from_near.size_masks())
+      CHECK(static_cast<float>(size.width()) / static_cast<float>(size.height()) ==
+            doctest::Approx(static_cast<float>(near.camera.width_px) /
+                            static_cast<float>(near.camera.height_px))
+                .epsilon(0.02));
+    const Mask& taken = from_near.size_masks()[from_near.size()];
+    const float scale = static_cast<float>(taken.width()) / static_cast<float>(near.camera.width_px);
+    CHECK(taken.at(static_cast<int>(scale * at.x), static_cast<int>(scale * at.y)) == kMaskObject);
+  }
+}

@@ -10,6 +10,10 @@ using namespace splatcut;
 
 namespace {
 
+Camera widened(const Camera& camera, std::span<const Camera> photographs, const glm::vec3& point_world) {
+  return with_margins(camera, margins_of_close_up(camera, photographs, point_world));
+}
+
 constexpr glm::vec3 kPoint{0, 0, 0};
 
 // 100 x 100 pixels, as wide as it is far.

@@ -1,0 +1,21 @@
+// How much around a picture a correction is understood by.
+//
+// A user zooms in to mend a detail, and then the picture crops the object, and what is wrong with it: the
+// changes that it does not show would count as hidden. So a click of a correction is looked at in a wider
+// picture from the same place, which holds what is selected so far and is no close-up (photographed.h).
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "scene/camera/camera.h"
+#include "scene/cloud/gaussian_cloud.h"
+
+namespace splatcut {
+
+// labels: per Gaussian, 1 = selected so far. photographs: cameras of the capture, where known. Each margin is
+// at most as wide or high as the picture; none: it shows enough.
+Margins margins_of_correction(const Camera& camera, const GaussianCloud& cloud,
+                              std::span<const std::uint8_t> labels, std::span<const Camera> photographs);
+
+}  // namespace splatcut
