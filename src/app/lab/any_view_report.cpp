@@ -308,9 +308,9 @@ nlohmann::json any_view_json(const LoadedCase& loaded, const AnyViewOptions& opt
   for (int draw = 0; draw < options.draws; ++draw)
     for (const AnyViewStart& start : starts_of_draw(draw)) {
       steps.next();
-      sessions.push_back(any_view_session(world, start, options.clicks,
-                                          {static_cast<std::uint64_t>(draw), options.choices, options.sizes},
-                                          silent));
+      sessions.push_back(any_view_session(
+          world, start, options.clicks,
+          {static_cast<std::uint64_t>(draw), options.choices, options.sizes, options.near}, silent));
       if (job.cancelled()) return {};
       if (options.on_sheet)
         options.on_sheet(sheet_name(scene.name, sessions.back()),

@@ -288,8 +288,9 @@ void check_any_view(const EvalArguments& args) {
   if (!args.any_view) {
     if (args.robot_asked)
       throw CLI::ArgumentMismatch(
-          "--robot-clicks, --starts, --from-box, --zoom, --choices, --sizes, --sheets and --perturb go with "
-          "--any-view");
+          "--robot-clicks, --starts, --from-box, --zoom, --near, --choices, --sizes, --sheets and --perturb "
+          "go "
+          "with --any-view");
     return;
   }
   const MaskOptions& mask = args.mask;
@@ -385,6 +386,11 @@ void add_eval_command(CLI::App& program, const CommonOptions& common) {
       ->check(CLI::Range(0, 1000));
   command.add_flag("--zoom", args->robot.zoom,
                    "Its first click again with the camera at .4, .6, 1, 2 and 4 times the distance");
+  command
+      .add_option(
+          "--near", args->robot.near,
+          "Its later clicks with the camera at that share of the distance, as one who zooms in to mend")
+      ->check(CLI::Range(0.2, 1.0));
   add_box_option(command, &args->robot.box_margin)->excludes("--zoom");
   command.add_flag(
       "--choices", args->robot.choices,
@@ -417,8 +423,8 @@ void add_eval_command(CLI::App& program, const CommonOptions& common) {
   command.add_flag("--overwrite", args->overwrite, "Replace existing output");
   command.callback([args, &command, &common] {
     args->clicks_given = command.count("--clicks") > 0;
-    for (const char* option : {"--robot-clicks", "--starts", "--from-box", "--zoom", "--choices", "--sizes",
-                               "--sheets", "--perturb"})
+    for (const char* option : {"--robot-clicks", "--starts", "--from-box", "--zoom", "--near", "--choices",
+                               "--sizes", "--sheets", "--perturb"})
       args->robot_asked |= command.count(option) > 0;
     run_eval(*args, common);
   });

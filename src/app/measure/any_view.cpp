@@ -161,6 +161,8 @@ AnyViewSession any_view_session(const AnyViewWorld& world, const AnyViewStart& s
   for (int i = 0; i < clicks && !job.cancelled(); ++i) {
     std::optional<ViewClick> next = ViewClick{start.camera, start.first};
     if (i > 0) next = next_click(world, shown, draw_of(hand.draw, static_cast<std::size_t>(i)));
+    if (i > 0 && next && hand.near != 1 && world.cloud)
+      next = zoomed_click(*world.cloud, {{}, next->camera, next->stroke}, hand.near).value_or(*next);
     if (i == 1 && next && hand.choices) session.choice = better_meaning(world, start.camera, meanings);
     const bool chooses = i == 1 && session.choice > 0;
     if (chooses) session.clicks.front().stroke.size_step = 0;
@@ -227,7 +229,8 @@ AnyViewWorld window_world(const EvaluationCase& scene, std::vector<TruthView> vi
           },
           [&scene](const Camera& camera, const std::vector<std::uint8_t>& labels) {
             return labels_seen(scene, camera, labels);
-          }};
+          },
+          scene.cloud};
 }
 
 std::vector<TruthView> truth_views(const EvaluationCase& scene) {

@@ -50,6 +50,7 @@ struct AnyViewWorld {
   // choice: of the first click's meanings.
   std::function<CutAnswer(std::span<const ViewClick> in_order, int choice, const Job&)> cut;
   std::function<Mask(const Camera&, const std::vector<std::uint8_t>& labels)> picture;
+  const GaussianCloud* cloud = nullptr;  // for clicks from near; null: there are none
 };
 
 struct AnyViewStart {
@@ -79,6 +80,7 @@ struct AnyViewHand {
   std::uint64_t draw = 0;  // 0: a steady one
   bool choices = false;    // takes what is offered
   bool sizes = false;      // turns the wheel after a click
+  float near = 1;          // corrects from that share of the distance, where what is wrong shows from there
 };
 AnyViewSession any_view_session(const AnyViewWorld& world, const AnyViewStart& start, int clicks,
                                 const AnyViewHand& hand = {}, const Job& job = {});

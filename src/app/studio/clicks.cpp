@@ -176,6 +176,10 @@ std::string Clicks::why_not_step(int steps) const {
   }
   const std::size_t size = size_wanted(), last = known->count() - 1;
   if (last == 0) return "The click means one size alone";
+  if (last_stroke(object->views)->label == SeedLabel::kRest) {
+    if (steps > 0 && size >= last) return "The click takes no more away than this";
+    if (steps < 0 && size == 0) return "The click takes no less away than this";
+  }
   if (steps > 0 && size >= last)
     return why_no_larger(stroke_count(*object) == 1, ws_.gaussians_of(object->id), ws_.gaussians());
   if (steps < 0 && size == 0) return "This is the smallest size";

@@ -11,9 +11,11 @@
 
 namespace splatcut {
 
-// Another scene may have been opened while it was written: the folder is remembered for all of them.
+// Another scene may have been opened while it was written: the folder is remembered for all of them, unless
+// it is the scene's own, where nobody looks for what was made of another.
 void Exports::written(const std::filesystem::path& path, const OpenedScene& of) {
   folder_ = std::filesystem::absolute(path).parent_path();
+  if (folder_ == std::filesystem::absolute(of.scene->path).parent_path()) folder_.clear();
   if (ws_.scene && ws_.scene->files.front().id == of.files.front().id) last_ = path;
 }
 

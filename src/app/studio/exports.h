@@ -23,7 +23,8 @@ class Exports {
   // Path of the scene, folder of scenes, or turntable that was written last of the scene that is open; empty:
   // none was.
   const std::filesystem::path& last() const { return last_; }
-  // Folder in which the last of all was written, also before the program began; empty: none was.
+  // Folder in which the last of all was written, also before the program began; empty: none was, or
+  // it was the scene's own.
   const std::filesystem::path& folder() const { return folder_; }
   void begin_in(std::filesystem::path folder) { folder_ = std::move(folder); }
 

@@ -462,3 +462,33 @@ TEST_CASE("zoom: the camera stands on the ray of the clicked pixel, at so many t
     }
   }
 }
+
+TEST_CASE("near: later clicks are made on the ray of the same pixel, from that share of the distance") {
+  const Workplace place;
+  REQUIRE(place.run("make-scene small -o made --gaussians 3000").code == 0);
+  int nearer = 0;
+  for (const json& entry : read_suite(place / "made/suite.json")) {
+    const auto loaded = load_case(entry, place / "made", {}, {});
+    const auto views = truth_views(loaded->test);
+    const AnyViewStart start = any_view_starts(loaded->test, views).front();
+    const AnyViewWorld world =
+        window_world(loaded->test, views, std::make_shared<WindowCut>(loaded->test, "default"));
+    const AnyViewSession usual = any_view_session(world, start, 2);
+    const AnyViewSession near = any_view_session(world, start, 2, {.near = 0.5f});
+    CHECK(same_camera(near.clicks.front().camera, start.camera));
+    REQUIRE(usual.clicks.size() == near.clicks.size());
+    if (usual.clicks.size() < 2) continue;
+    const ViewClick &from = usual.clicks[1], &to = near.clicks[1];
+    CHECK(to.stroke.points_px == from.stroke.points_px);
+    CHECK(to.stroke.label == from.stroke.label);
+    if (same_camera(to.camera, from.camera)) continue;  // something else shows from near
+    ++nearer;
+    const glm::vec2 pixel = from.stroke.points_px.front();
+    const glm::vec3 step = to.camera.centre_world() - from.camera.centre_world();
+    const glm::vec2 at =
+        from.camera.pixel_from_camera(from.camera.camera_from_world(to.camera.centre_world()));
+    CHECK(glm::length(step) > 0);
+    CHECK(glm::distance(at, pixel) < 1);
+  }
+  CHECK(nearer > 0);
+}

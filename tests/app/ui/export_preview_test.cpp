@@ -103,4 +103,16 @@ TEST_CASE(
   CHECK(begins_in(again.app) == folder / "out");
   std::filesystem::remove_all(folder / "out");
   CHECK(begins_in(again.app) == kSmallSample.parent_path());
+  // What was exported beside its own scene is no reason to put another scene's there, too.
+  std::filesystem::create_directories(folder / "one");
+  const std::filesystem::path scene = folder / "one" / kSmallSample.filename();
+  std::filesystem::copy_file(kSmallSample, scene);
+  again.studio().apply(OpenScene{scene});
+  REQUIRE(again.app.settle());
+  again.studio().apply(Export{{ExportWhat::kScene, SceneFormat::kSplat, folder / "one/all.splat"}});
+  REQUIRE(again.app.settle());
+  CHECK(begins_in(again.app) == folder / "one");
+  again.studio().apply(OpenScene{kSample});
+  REQUIRE(again.app.settle());
+  CHECK(begins_in(again.app) == kSample.parent_path());
 }
