@@ -35,8 +35,7 @@ struct SavedSteps {
   };
   std::vector<Step> steps;
   std::size_t cursor = 0;
-  std::vector<std::size_t>
-      compared{};  // steps before the last stroke of each object, see before_last_stroke()
+  std::vector<std::size_t> compared{};  // steps before each object's last stroke: before_last_stroke()
 };
 
 class History {

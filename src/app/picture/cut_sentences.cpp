@@ -100,8 +100,8 @@ std::string shared_with(const Document& document, ObjectId id, const LabelsOfObj
     std::size_t both = 0, kept = 0;
     for (std::size_t g = 0; object->cut && object->of_others && g < own->size(); ++g)
       kept += (*object->cut)[g] & (*object->of_others)[g] & (*labels)[g] & !(*own)[g];
-    constexpr std::size_t kWorthSaying = 100;  // a hundredth of the object
-    if (kept > 0 && kWorthSaying * kept >= count_flags(*own))
+    constexpr double kWorthSaying = 0.01;  // of the object
+    if (kept > 0 && static_cast<double>(kept) >= kWorthSaying * static_cast<double>(count_flags(*own)))
       return fmt::format(". {} that {} had before stay its own; the menu of {} has a way to take them, too",
                          gaussians_text(kept), other.name, object->name);
     for (std::size_t g = 0; g < own->size(); ++g) both += (*own)[g] & (*labels)[g];

@@ -9,7 +9,7 @@ namespace splatcut {
 
 namespace {
 
-// What that means, and what the button does then.
+// Of an object that Clean leaves as it is: why, and what its button does then.
 std::string uncleaned_text(const std::string& name, const std::string& why_not) {
   return fmt::format("Clean cuts nothing off {}: {}. With the button on or off it looks and exports the same",
                      name, why_not);

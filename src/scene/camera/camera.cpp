@@ -82,6 +82,14 @@ Camera resized(const Camera& camera, int width_px, int height_px) {
   return out;
 }
 
+bool Camera::shows(const glm::vec3& point_world) const {
+  const glm::vec3 at = camera_from_world(point_world);
+  if (!(at.z > 0)) return false;
+  const glm::vec2 pixel = pixel_from_camera(at);
+  return pixel.x >= 0 && pixel.y >= 0 && pixel.x < static_cast<float>(width_px) &&
+         pixel.y < static_cast<float>(height_px);
+}
+
 Camera with_margins(const Camera& camera, const Margins& margins) {
   Camera out = camera;
   out.width_px += margins.left_px + margins.right_px;

@@ -27,6 +27,8 @@ struct Camera {
   glm::vec2 pixel_from_camera(const glm::vec3& point_camera) const {
     return {fx_px * point_camera.x / point_camera.z + cx_px, fy_px * point_camera.y / point_camera.z + cy_px};
   }
+  // True if the point lies in the picture, whatever hides it.
+  bool shows(const glm::vec3& point_world) const;
   // World point at depth z (scene units along the optical axis) behind the pixel.
   glm::vec3 world_from_pixel(const glm::vec2& pixel, float depth) const {
     const glm::vec3 point_camera{(pixel.x - cx_px) / fx_px * depth, (pixel.y - cy_px) / fy_px * depth, depth};

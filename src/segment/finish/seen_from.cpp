@@ -51,14 +51,6 @@ float visible_share(const Drawer& scene, const GaussianCloud& object, std::span<
   return all == 0 ? 0 : static_cast<float>(visible) / static_cast<float>(all);
 }
 
-bool has_in_picture(const Camera& camera, const glm::vec3& point_world) {
-  const glm::vec3 at = camera.camera_from_world(point_world);
-  if (!(at.z > 0)) return false;
-  const glm::vec2 px = camera.pixel_from_camera(at);
-  return px.x >= 0 && px.y >= 0 && px.x < static_cast<float>(camera.width_px) &&
-         px.y < static_cast<float>(camera.height_px);
-}
-
 // The cameras of the capture nearest to a side, as seen from the object, that have it in their picture.
 std::vector<Camera> cameras_at(const glm::vec3& side, const ObjectExtent& object,
                                std::span<const Camera> cameras) {
@@ -68,8 +60,7 @@ std::vector<Camera> cameras_at(const glm::vec3& side, const ObjectExtent& object
   for (const Camera& camera : cameras) {
     const glm::vec3 away = camera.centre_world() - object.centre_world;
     const float cosine = glm::dot(away, side) / std::max(glm::length(away), 1e-12f);
-    if (cosine >= kLeastCosine && has_in_picture(camera, object.centre_world))
-      near.emplace_back(-cosine, &camera);
+    if (cosine >= kLeastCosine && camera.shows(object.centre_world)) near.emplace_back(-cosine, &camera);
   }
   std::stable_sort(near.begin(), near.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<Camera> chosen;

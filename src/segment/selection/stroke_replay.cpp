@@ -77,7 +77,6 @@ LeafView* StrokeReplay::view(const Drawer& drawer, const CameraStroke& said, int
   return &views_.front().view;
 }
 
-// True if the view is one, at what it shows there.
 bool StrokeReplay::close_up(const LeafView& view, const glm::vec2& pixel) const {
   const glm::ivec2 at = glm::clamp(glm::ivec2(pixel), glm::ivec2(0),
                                    glm::ivec2(view.camera.width_px - 1, view.camera.height_px - 1));

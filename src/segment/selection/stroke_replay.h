@@ -42,8 +42,8 @@ class StrokeReplay {
 
   // parts and photographs (cameras of the capture, where known) must outlive this. most_bytes: of the views
   // that are kept; the last used one always is.
-  explicit StrokeReplay(const PartHierarchy& parts, std::size_t most_bytes = kMostBytes,
-                        std::span<const Camera> photographs = {})
+  explicit StrokeReplay(const PartHierarchy& parts, std::span<const Camera> photographs = {},
+                        std::size_t most_bytes = kMostBytes)
       : parts_(parts), photographs_(photographs), most_bytes_(most_bytes) {}
 
   // Returns the selection after all strokes, which is valid until the next call. If cancelled, it must not be
@@ -66,6 +66,7 @@ class StrokeReplay {
 
   std::shared_ptr<ClickSelection> after_in_view(const Drawer& drawer, const ClickSelection& before,
                                                 const CameraStroke& said, int work_width_px, const Job& job);
+  // True if the view is a close-up of what its pixel shows.
   bool close_up(const LeafView& view, const glm::vec2& pixel) const;
 
   const PartHierarchy& parts_;

@@ -122,9 +122,7 @@ struct LocalSession::Asked {
 };
 
 LocalSession::LocalSession(LocalScene scene)
-    : scene_(std::move(scene)),
-      views_(*scene_.cloud),
-      strokes_(scene_.prepared->parts, StrokeReplay::kMostBytes, scene_.photographs) {}
+    : scene_(std::move(scene)), views_(*scene_.cloud), strokes_(scene_.prepared->parts, scene_.photographs) {}
 
 bool LocalSession::graph_stands(const CutSettings& settings) const {
   const std::size_t most = scene_.cloud->size() > 0 ? scene_.cloud->size() - 1 : 0;

@@ -61,7 +61,7 @@ std::vector<Camera> views_around(const WholeScene& scene, const Place& place,
   std::vector<Camera> views{limited_to_width(place.eye, options.width_px)}, given;
   const glm::vec3 centre = place.looked_at.centre_world();
   std::ranges::copy_if(scene.photographs, std::back_inserter(given),
-                       [&](const Camera& camera) { return shows(camera, centre); });
+                       [&](const Camera& camera) { return camera.shows(centre); });
   const std::size_t n = std::min<std::size_t>(given.size(), static_cast<std::size_t>(options.most_given));
   for (std::size_t i = 0; i < n; ++i)
     views.push_back(limited_to_width(given[i * given.size() / n], options.width_px));

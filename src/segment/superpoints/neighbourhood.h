@@ -5,7 +5,8 @@
 // are cells: a cell of level l has a side of 2^l scene units and its centre on a grid of a quarter of a side,
 // so that what is clicked nearby shares one, and a thing half as large as the nearest cell keeps an eighth of
 // a side away from its faces. Views that observe the Gaussians stand around the place: given cameras that
-// show it, else a ring that starts on the side from which it was clicked, half as far again as the click. A
+// show it, else a ring that starts on the side from which it was clicked, half as far again as the click; and
+// the click's own, with what lies around its picture where that is a close-up (photographed.h). A
 // neighbourhood depends on the scene and the place alone. Cost: some 8 us a Gaussian in the cell (graph,
 // parts and 12 to 25 small views), whatever the size of the scene; 600 bytes a Gaussian.
 #pragma once
@@ -43,7 +44,7 @@ int level_above(float length);
 struct Place {
   Cell cell;           // whose Gaussians are prepared
   Cell looked_at;      // what observing views look at
-  Camera eye;          // the first of them: from where the place was clicked, see Session::first_place()
+  Camera eye;          // the first of them: from where the place was clicked
   bool whole = false;  // all Gaussians of the scene, whatever the cell
   bool operator==(const Place& other) const;
 };

@@ -18,26 +18,18 @@ float breadth_at(const Camera& camera, const glm::vec3& point_world) {
   return std::sqrt(area_px) * glm::distance(camera.centre_world(), point_world) / camera.fx_px;
 }
 
-// Breadth of the photographs over that of the picture; 1 where it is not known.
-float too_narrow(const Camera& camera, std::span<const Camera> photographs, const glm::vec3& point_world) {
+// How many times as broad as the picture the photographs are; 1 where that is not known.
+float times_broader(const Camera& camera, std::span<const Camera> photographs, const glm::vec3& point_world) {
   const auto usual = photographed(photographs, point_world);
   return usual ? usual->breadth / std::max(breadth_at(camera, point_world), 1e-15f) : 1;
 }
 
 }  // namespace
 
-bool shows(const Camera& camera, const glm::vec3& point_world) {
-  const glm::vec3 at = camera.camera_from_world(point_world);
-  if (!(at.z > 0)) return false;
-  const glm::vec2 pixel = camera.pixel_from_camera(at);
-  return pixel.x >= 0 && pixel.y >= 0 && pixel.x < static_cast<float>(camera.width_px) &&
-         pixel.y < static_cast<float>(camera.height_px);
-}
-
 std::optional<Photographed> photographed(std::span<const Camera> photographs, const glm::vec3& point_world) {
   std::vector<float> distances, breadths;
   for (const Camera& camera : photographs) {
-    if (!shows(camera, point_world)) continue;
+    if (!camera.shows(point_world)) continue;
     distances.push_back(glm::distance(camera.centre_world(), point_world));
     breadths.push_back(breadth_at(camera, point_world));
   }
@@ -46,12 +38,12 @@ std::optional<Photographed> photographed(std::span<const Camera> photographs, co
 }
 
 bool is_close_up(const Camera& camera, std::span<const Camera> photographs, const glm::vec3& point_world) {
-  return too_narrow(camera, photographs, point_world) > kCloseUp;
+  return times_broader(camera, photographs, point_world) > kCloseUp;
 }
 
 Margins margins_of_close_up(const Camera& camera, std::span<const Camera> photographs,
                             const glm::vec3& point_world) {
-  const float factor = too_narrow(camera, photographs, point_world);
+  const float factor = times_broader(camera, photographs, point_world);
   if (!(factor > kCloseUp)) return {};
   const float margin = (std::min(factor, kWidest) - 1) / 2;
   const int beside_px = static_cast<int>(margin * static_cast<float>(camera.width_px));

@@ -1,5 +1,5 @@
-// How the photographs of a capture show a point: from how far, and how much around it. It is what a scene was
-// trained to look like, whereas a user may stand anywhere.
+// How the photographs of a capture show a point: from how far, and how much around it. Things are
+// photographed whole; a user may stand so near that the picture crops them.
 //
 // A picture's breadth at a point: the side of a square as large as the picture's area there, scene units.
 #pragma once
@@ -17,9 +17,6 @@ inline constexpr std::ptrdiff_t kEnoughPhotographs = 3;  // to know a place by t
 struct Photographed {
   float distance = 0, breadth = 0;  // medians over the photographs that show the point, scene units
 };
-
-// True if the point lies in the picture, whatever hides it.
-bool shows(const Camera& camera, const glm::vec3& point_world);
 
 // Nothing where fewer than kEnoughPhotographs show the point.
 std::optional<Photographed> photographed(std::span<const Camera> photographs, const glm::vec3& point_world);

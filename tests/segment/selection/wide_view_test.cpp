@@ -1,4 +1,4 @@
-// How much around a picture a correction is understood by, by hand.
+// The wider picture in which a correcting click is looked at, by hand.
 #include "segment/selection/wide_view.h"
 
 #include <doctest/doctest.h>

@@ -34,7 +34,7 @@ TEST_CASE("photographs: medians of those that show a point, and nothing of two")
   cameras[1].width_px = 400;  // of 400 x 100 pixels a square has 200
   CHECK(photographed(std::span(cameras).first(3), kPoint)->breadth == doctest::Approx(2));
   cameras[0] = look_at({0, 0, -4}, {0, 0, -9}, {0, 1, 0}, 0.5f, 100, 100);  // turned away
-  CHECK_FALSE(shows(cameras[0], kPoint));
+  CHECK_FALSE(cameras[0].shows(kPoint));
   CHECK(photographed(cameras, kPoint)->distance == doctest::Approx(2));
   CHECK_FALSE(photographed(std::span(cameras).first(3), kPoint));
   CHECK_FALSE(photographed({}, kPoint));
