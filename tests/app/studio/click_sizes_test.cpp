@@ -39,6 +39,23 @@ TEST_CASE("clicks: the wheel takes sizes that differ, and says where there is no
   }
 }
 
+TEST_CASE("clicks: at the ends of what a right click takes away, that is said") {
+  Artist artist(on_sample("mug", kOnMug));
+  artist.click_on_it();
+  artist.app.click(artist.screen_of(kOnMug + glm::vec2(0, 55)), PointerButton::kRight);
+  REQUIRE(artist.app.settle());
+  for (const int key : {int(key::kPageUp), int(key::kPageDown)}) {
+    std::size_t entries = 0;
+    for (int steps = 0; steps < 60 && artist.studio().history().entries().size() != entries; ++steps) {
+      entries = artist.studio().history().entries().size();
+      artist.app.key(key);
+      REQUIRE(artist.app.settle());
+    }
+    const char* end = key == key::kPageUp ? "takes no more away than this" : "takes no less away than this";
+    CHECK_MESSAGE(artist.said().find(end) != std::string::npos, artist.said());
+  }
+}
+
 TEST_CASE("clicks: sizes are of the last click, also from another view and of a correction") {
   Artist artist(on_sample("mug", kOnMug));
   artist.click_on_it();
