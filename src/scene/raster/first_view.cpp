@@ -4,86 +4,44 @@
 #include <array>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
-#include <numeric>
 #include <vector>
 
 #include "core/ranks.h"
+#include "scene/cloud/captured_detail.h"
 #include "scene/raster/rasterizer.h"
 
 namespace splatcut {
 
 namespace {
 
-float middle_sigma(const glm::vec3& scale) {
-  return std::max(std::min(scale.x, scale.y), std::min(std::max(scale.x, scale.y), scale.z));
-}
-
-// Gaussians by how finely they were captured: 1 / sigma, since splats are small where cameras were near.
-struct Detail {
-  std::vector<glm::vec3> position_world;
-  std::vector<double> weight;
-  std::size_t size() const { return weight.size(); }
-  double total() const { return std::accumulate(weight.begin(), weight.end(), 0.0); }
-  void add(const glm::vec3& at, double w) {
-    position_world.push_back(at);
-    weight.push_back(w);
-  }
-};
-
-Detail detail_of(const GaussianCloud& cloud) {
-  constexpr std::size_t kSample = 1 << 16;
-  constexpr float kLeastOpacity = 0.1f;
-  Detail detail;
-  const std::size_t step = std::max<std::size_t>(1, cloud.size() / kSample);
-  for (std::size_t g = 0; g < cloud.size(); g += step) {
-    if (cloud.opacity[g] < kLeastOpacity) continue;
-    detail.add(cloud.position[g], 1 / std::max(1e-30, static_cast<double>(middle_sigma(cloud.scale[g]))));
-  }
-  return detail;
-}
-
-// Half of the weight lies below it.
-template <typename Value>
-float weighted_median(const Detail& detail, const Value& value) {
-  std::vector<std::pair<float, double>> items;
-  for (std::size_t i = 0; i < detail.size(); ++i)
-    items.emplace_back(value(detail.position_world[i]), detail.weight[i]);
-  std::ranges::sort(items);
-  const double half = 0.5 * detail.total();
-  double below = 0;
-  for (const auto& [v, weight] : items)
-    if ((below += weight) >= half) return v;
-  return 0;
-}
-
-// What was captured most finely: within `radius` of its median lies half of the detail.
+// What was captured most finely.
 struct Subject {
-  glm::vec3 centre{0};  // of its box, to aim at
-  float radius = 0;
-  Detail detail;              // around it
+  glm::vec3 centre{0};        // of its box, to aim at
+  float radius = 0;           // within it of the detail's median lies half of the detail
+  CapturedDetail detail;      // around it
   bool stands_alone = false;  // a tall thing, hardly anything else: is to be seen from head to foot
 };
 
-bool higher_than_wide(const Detail& detail, const glm::vec3& up) {
+bool higher_than_wide(const CapturedDetail& detail, const glm::vec3& up) {
   const glm::vec3 size = robust_bounds(detail.position_world, 0.96).extent();
   const glm::vec3 width = size * (1.0f - glm::abs(up));
   return glm::length(size * glm::abs(up)) > std::max({width.x, width.y, width.z});
 }
 
 Subject subject_of(const GaussianCloud& cloud, const glm::vec3& up) {
-  const Detail all = detail_of(cloud);
+  const CapturedDetail all = captured_detail(cloud);
+  const Ball middle = middle_half(all);
   Subject subject;
-  for (int axis = 0; axis < 3; ++axis)
-    subject.centre[axis] = weighted_median(all, [&](const glm::vec3& p) { return p[axis]; });
-  const auto distance = [&](const glm::vec3& p) { return glm::distance(p, subject.centre); };
-  subject.radius = weighted_median(all, distance);
+  subject.centre = middle.centre_world;
+  subject.radius = middle.radius;
   const auto within = [&](float most) {
-    Detail detail;
+    CapturedDetail detail;
     for (std::size_t i = 0; i < all.size(); ++i)
-      if (distance(all.position_world[i]) < most) detail.add(all.position_world[i], all.weight[i]);
+      if (glm::distance(all.position_world[i], middle.centre_world) < most)
+        detail.add(all.position_world[i], all.weight[i]);
     return detail;
   };
-  const Detail around = within(3 * subject.radius);
+  const CapturedDetail around = within(3 * subject.radius);
   if (around.size() == 0) return subject;
   constexpr double kHardlyElse = 0.97;
   subject.stands_alone = around.total() > kHardlyElse * all.total() && higher_than_wide(around, up);

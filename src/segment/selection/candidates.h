@@ -5,7 +5,7 @@
 // leaf in every tree. For corrections, the disc alone is one more candidate. So is another meaning of what
 // was said first, click or box, that no click speaks against. Pixels are the view's. "All views" are the
 // observing views (part_looks.h), for a first click together with its own if that is no close-up
-// (photographed.h), so that a part looks the same from wherever the user stands. f is ln(pixels that would
+// (usual_picture.h), so that a part looks the same from wherever the user stands. f is ln(pixels that would
 // change / area of the disc that reaches to where the wrong region may end). Terms of a candidate:
 //
 // - kCut: ln(L / sqrt(area)), with L the length of the node's border in the scene, weighted by likeness; at

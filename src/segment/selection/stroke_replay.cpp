@@ -4,7 +4,6 @@
 
 #include "segment/masks/mask_tools.h"
 #include "segment/selection/wide_view.h"
-#include "segment/superpoints/photographed.h"
 
 namespace splatcut {
 
@@ -82,7 +81,7 @@ bool StrokeReplay::close_up(const LeafView& view, const glm::vec2& pixel) const 
                                    glm::ivec2(view.camera.width_px - 1, view.camera.height_px - 1));
   const float depth = view.depth.at(at.x, at.y);
   return depth > 0 &&
-         is_close_up(view.camera, photographs_, view.camera.world_from_pixel(glm::vec2(at) + 0.5f, depth));
+         is_close_up(view.camera, capture_, view.camera.world_from_pixel(glm::vec2(at) + 0.5f, depth));
 }
 
 // What is small in the view is looked at with more pixels: by what is selected already, else by what the
@@ -132,10 +131,9 @@ std::shared_ptr<ClickSelection> StrokeReplay::after_in_view(const Drawer& drawer
 std::shared_ptr<const ClickSelection> StrokeReplay::after(const Drawer& drawer, const ClickSelection& before,
                                                           const CameraStroke& said, const Job& job) {
   const int work_width_px = options_.work_width_px;
-  const Margins margins =
-      before.any() && said.stroke.is_click()
-          ? margins_of_correction(said.camera, drawer.cloud(), before.labels(), photographs_)
-          : Margins{};
+  const Margins margins = before.any() && said.stroke.is_click()
+                              ? margins_of_correction(said.camera, drawer.cloud(), before.labels(), capture_)
+                              : Margins{};
   if (!margins.any()) return after_in_view(drawer, before, said, work_width_px, job);
   const CameraStroke wide = with_margins(said, margins);
   auto next = after_in_view(drawer, before, wide, work_width(work_width_px, said.camera, wide.camera), job);

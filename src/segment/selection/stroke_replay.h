@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "segment/selection/click_selection.h"
+#include "segment/superpoints/usual_picture.h"
 
 namespace splatcut {
 
@@ -40,11 +41,10 @@ class StrokeReplay {
  public:
   static constexpr std::size_t kMostBytes = std::size_t{256} << 20;  // some 25 views at 320 pixels
 
-  // parts and photographs (cameras of the capture, where known) must outlive this. most_bytes: of the views
-  // that are kept; the last used one always is.
-  explicit StrokeReplay(const PartHierarchy& parts, std::span<const Camera> photographs = {},
+  // parts and capture must outlive this. most_bytes: of the views that are kept; the last used one always is.
+  explicit StrokeReplay(const PartHierarchy& parts, const Capture& capture = kUnknownCapture,
                         std::size_t most_bytes = kMostBytes)
-      : parts_(parts), photographs_(photographs), most_bytes_(most_bytes) {}
+      : parts_(parts), capture_(capture), most_bytes_(most_bytes) {}
 
   // Returns the selection after all strokes, which is valid until the next call. If cancelled, it must not be
   // used.
@@ -70,7 +70,7 @@ class StrokeReplay {
   bool close_up(const LeafView& view, const glm::vec2& pixel) const;
 
   const PartHierarchy& parts_;
-  std::span<const Camera> photographs_;
+  const Capture& capture_;
   std::size_t most_bytes_;
   std::list<KnownView> views_;  // views that are kept, the last used first
   ReplayOptions options_;

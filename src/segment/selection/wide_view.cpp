@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "core/ranks.h"
-#include "segment/superpoints/photographed.h"
 
 namespace splatcut {
 
@@ -33,7 +32,7 @@ int margin_for(float beyond_px, int size_px) {
 }  // namespace
 
 Margins margins_of_correction(const Camera& camera, const GaussianCloud& cloud,
-                              std::span<const std::uint8_t> labels, std::span<const Camera> photographs) {
+                              std::span<const std::uint8_t> labels, const Capture& capture) {
   std::vector<glm::vec3> selected;
   std::vector<float> x_px, y_px;
   for (std::size_t g = 0; g < labels.size(); ++g) {
@@ -46,7 +45,9 @@ Margins margins_of_correction(const Camera& camera, const GaussianCloud& cloud,
     y_px.push_back(pixel.y);
   }
   if (selected.empty()) return {};
-  Margins margins = margins_of_close_up(camera, photographs, robust_bounds(selected, kNotStrays).centre());
+  Margins margins;
+  if (!capture.photographs.empty())
+    margins = margins_of_close_up(camera, capture, robust_bounds(selected, kNotStrays).centre());
   if (x_px.empty()) return margins;
   const Range x = range_of(&x_px), y = range_of(&y_px);
   const int width = camera.width_px, height = camera.height_px;

@@ -30,8 +30,8 @@ class SeenSets {
 };
 
 struct KeptNeighbourhood {
-  KeptNeighbourhood(Neighbourhood made, const SessionScene& scene)
-      : near(std::move(made)), session({near.cloud, near.prepared, scene.up_world, scene.photographs}) {}
+  KeptNeighbourhood(Neighbourhood made, const WholeScene& scene)
+      : near(std::move(made)), session({near.cloud, near.prepared, scene.up_world, scene.capture}) {}
 
   std::size_t bytes() const { return near.bytes() + session.stroke_bytes(); }
 

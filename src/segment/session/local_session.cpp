@@ -122,7 +122,7 @@ struct LocalSession::Asked {
 };
 
 LocalSession::LocalSession(LocalScene scene)
-    : scene_(std::move(scene)), views_(*scene_.cloud), strokes_(scene_.prepared->parts, scene_.photographs) {}
+    : scene_(std::move(scene)), views_(*scene_.cloud), strokes_(scene_.prepared->parts, scene_.capture) {}
 
 bool LocalSession::graph_stands(const CutSettings& settings) const {
   const std::size_t most = scene_.cloud->size() > 0 ? scene_.cloud->size() - 1 : 0;
@@ -157,7 +157,7 @@ CutScene LocalSession::scene_for(const CutRequest& request, const CutSettings& s
           solver(settings, job),
           strokes_,
           request.up_world.value_or(scene_.up_world),
-          scene_.photographs};
+          scene_.capture.photographs};
 }
 
 LocalSession::Asked LocalSession::asked(const CutRequest& request, const CutSettings& settings) const {

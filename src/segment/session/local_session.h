@@ -41,7 +41,7 @@ struct LocalScene {
   std::shared_ptr<const GaussianCloud> cloud;
   std::shared_ptr<const PreparedScene> prepared;  // of the cloud, never null
   glm::vec3 up_world{0, -1, 0};                   // for orbits; a request may know better
-  std::vector<Camera> photographs;                // cameras of the capture, where known
+  Capture capture;
 };
 
 class LocalSession {

@@ -30,7 +30,7 @@ CutResult nothing_found(std::size_t gaussians, const char* reason) {
 Session::Session(SessionScene scene)
     : scene_(std::move(scene)),
       whole_{scene_.cloud, scene_.blocks ? scene_.blocks : std::make_shared<const CloudBlocks>(*scene_.cloud),
-             scene_.up_world, scene_.photographs} {
+             scene_.up_world, capture_of(*scene_.cloud, scene_.photographs)} {
   Hasher hash;
   hash.add(whole_.blocks->blocks());
   scene_.prepare.cache.scene = hash.value();
@@ -68,7 +68,7 @@ Session::Local* Session::local(const Place& place, const CutSettings& settings, 
   }
   Neighbourhood made = prepare_neighbourhood(whole_, place, with_parts ? &scene_.prepare : nullptr, job);
   if (job.cancelled()) return nullptr;
-  locals_.emplace_front(std::move(made), scene_);
+  locals_.emplace_front(std::move(made), whole_);
   StageClock(&prepared_).book(locals_.front().near.prepared->stages);
   std::size_t bytes = locals_.front().bytes();
   for (auto l = std::next(locals_.begin()); l != locals_.end();) {

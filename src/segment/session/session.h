@@ -3,9 +3,10 @@
 // Command line, window, eval and study cut through it, so that the same strokes give the same labels. What is
 // prepared is a neighbourhood of what was clicked (superpoints/neighbourhood.h), never the scene:
 //   1. The first stroke on the object says where: what it hits; as the cell's side the camera's distance, or
-//      that of the photographs if it is larger, rounded up to a power of two, or what else holds a Gaussian;
-//      half of it again and again while the cell holds more than most_gaussians and the half still holds all
-//      that was hit, and a Gaussian. With masks, the box of what they show, twice as large.
+//      the usual one (superpoints/usual_picture.h) if it is larger, rounded up to a power of two, or what
+//      else holds a Gaussian; half of it again and again while the cell holds more than most_gaussians and
+//      the half still holds all that was hit, and a Gaussian. With masks, the box of what they show, twice
+//      as large.
 //   2. After each stroke, and again after the cut: while what is labelled touches the cell's side, or a
 //      stroke on the object hits what lies outside, the next cell is twice as large, about both. A cell
 //      that holds most of the scene is the scene. A first answer is shown while it grows. Other meanings of

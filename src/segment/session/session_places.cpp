@@ -7,7 +7,7 @@
 #include "segment/masks/mask_tools.h"
 #include "segment/session/kept_neighbourhood.h"
 #include "segment/session/reference_mask.h"
-#include "segment/superpoints/photographed.h"
+#include "segment/superpoints/usual_picture.h"
 
 namespace splatcut {
 
@@ -122,11 +122,15 @@ Place Session::seen_from(const Camera& eye, const glm::vec3& point_world) {
 // A splat may show far from its centre: what is hit is no sign that a Gaussian lies near.
 Place Session::first_place(const Camera& eye, const Box& must_hold) const {
   Place place = seen_from(eye, must_hold.centre());
-  // What is clicked from nearer than it was photographed does not fit into a cell of that distance.
-  if (const auto usual = photographed(whole_.photographs, must_hold.centre()))
-    place.cell = cell_around(must_hold.centre(), std::max(place.cell.level, level_above(usual->distance)));
+  // What is clicked from nearer than usual does not fit into a cell of that distance.
+  const glm::vec3 at = must_hold.centre();
+  if (const auto usual = usual_picture(eye, whole_.capture, at)) {
+    place.cell = cell_around(at, std::max(place.cell.level, level_above(usual->distance)));
+    if (is_close_up(eye, whole_.capture, at))
+      place.closer = usual->distance / glm::distance(eye.centre_world(), at);
+  }
   // A close-up would say of what it cuts off that nobody means it.
-  place.eye = with_margins(eye, margins_of_close_up(eye, whole_.photographs, must_hold.centre()));
+  place.eye = with_margins(eye, margins_of_close_up(eye, whole_.capture, at));
   const auto gaussians = [&](const Cell& cell) {
     return whole_.blocks->count_in(*scene_.cloud, cell.box_world());
   };

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "segment/superpoints/orbit.h"
-#include "segment/superpoints/photographed.h"
+#include "segment/superpoints/usual_picture.h"
 
 namespace splatcut {
 
@@ -48,7 +48,7 @@ int level_above(float length) {
 
 bool Place::operator==(const Place& other) const {
   return cell == other.cell && looked_at == other.looked_at && whole == other.whole &&
-         same_camera(eye, other.eye);
+         closer == other.closer && same_camera(eye, other.eye);
 }
 
 std::size_t Neighbourhood::bytes() const {
@@ -60,7 +60,7 @@ std::vector<Camera> views_around(const WholeScene& scene, const Place& place,
                                  const ObservingOptions& options) {
   std::vector<Camera> views{limited_to_width(place.eye, options.width_px)}, given;
   const glm::vec3 centre = place.looked_at.centre_world();
-  std::ranges::copy_if(scene.photographs, std::back_inserter(given),
+  std::ranges::copy_if(scene.capture.photographs, std::back_inserter(given),
                        [&](const Camera& camera) { return camera.shows(centre); });
   const std::size_t n = std::min<std::size_t>(given.size(), static_cast<std::size_t>(options.most_given));
   for (std::size_t i = 0; i < n; ++i)
@@ -71,7 +71,7 @@ std::vector<Camera> views_around(const WholeScene& scene, const Place& place,
   orbit.elevation_swing_rad = options.elevation_swing_rad;
   // What is clicked is the near side of a thing: at its own distance, views from behind would cut it off.
   constexpr float kFarther = 1.5f;
-  const float distance = kFarther * glm::distance(place.eye.centre_world(), centre);
+  const float distance = kFarther * place.closer * glm::distance(place.eye.centre_world(), centre);
   const ObjectExtent extent{centre, distance / (2 * orbit.distance_sizes)};
   std::ranges::copy(orbit_cameras(views.front(), scene.up_world, extent, orbit), std::back_inserter(views));
   return views;

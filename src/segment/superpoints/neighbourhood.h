@@ -6,9 +6,10 @@
 // so that what is clicked nearby shares one, and a thing half as large as the nearest cell keeps an eighth of
 // a side away from its faces. Views that observe the Gaussians stand around the place: given cameras that
 // show it, else a ring that starts on the side from which it was clicked, half as far again as the click; and
-// the click's own, with what lies around its picture where that is a close-up (photographed.h). A
-// neighbourhood depends on the scene and the place alone. Cost: some 8 us a Gaussian in the cell (graph,
-// parts and 12 to 25 small views), whatever the size of the scene; 600 bytes a Gaussian.
+// the click's own. A close-up (usual_picture.h) is looked at with what lies around its picture, and by a ring
+// half as far again as usual. A neighbourhood depends on the scene and the place alone. Cost: some 8 us a
+// Gaussian in the cell (graph, parts and 12 to 25 small views), whatever the size of the scene; 600 bytes a
+// Gaussian.
 #pragma once
 
 #include <compare>
@@ -21,6 +22,7 @@
 #include "core/job.h"
 #include "scene/cloud/cloud_blocks.h"
 #include "segment/superpoints/prepared_scene.h"
+#include "segment/superpoints/usual_picture.h"
 
 namespace splatcut {
 
@@ -45,16 +47,17 @@ struct Place {
   Cell cell;           // whose Gaussians are prepared
   Cell looked_at;      // what observing views look at
   Camera eye;          // the first of them: from where the place was clicked
+  float closer = 1;    // times as close as usual the eye is where its picture is a close-up, else 1
   bool whole = false;  // all Gaussians of the scene, whatever the cell
   bool operator==(const Place& other) const;
 };
 
-// What neighbourhoods are made from. All of it outlives them but the photographs.
+// What neighbourhoods are made from. All of it outlives them but the capture.
 struct WholeScene {
   std::shared_ptr<const GaussianCloud> cloud;
   std::shared_ptr<const CloudBlocks> blocks;  // of the cloud
   glm::vec3 up_world{0, -1, 0};
-  std::vector<Camera> photographs;  // cameras of the capture, where known
+  Capture capture;
 };
 
 struct Neighbourhood {

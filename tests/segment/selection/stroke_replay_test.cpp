@@ -184,7 +184,7 @@ TEST_CASE("selection: replayed strokes give what strokes one by one give, on any
   constexpr std::size_t kNothing = 1;
   std::vector<CameraStroke> from_two = {strokes[1], strokes[2]};
   from_two[1].camera = limited_to_width(mug.camera, 200);
-  StrokeReplay small(t.prepared.parts, {}, kNothing), large(t.prepared.parts);
+  StrokeReplay small(t.prepared.parts, kUnknownCapture, kNothing), large(t.prepared.parts);
   const Labels seen_twice = large.replay(t.cloud, from_two, {}).labels();
   CHECK(small.replay(t.cloud, from_two, {}).labels() == seen_twice);
   CHECK(small.view_bytes() > 0);
@@ -212,7 +212,8 @@ TEST_CASE("selection: a correction means from near what it means from where the 
   for (const char* other : {"mug", "apple", "books", "lamp"}) {
     INFO(other);
     const auto after = [&](const CameraStroke& correction) {
-      StrokeReplay replay(t.prepared.parts, t.scene.cameras);
+      const Capture capture{.photographs = t.scene.cameras, .subject = {}};
+      StrokeReplay replay(t.prepared.parts, capture);
       return ClickSelection(
           replay.replay(t.cloud, std::vector<CameraStroke>{middle_of(other), correction}, {}));
     };

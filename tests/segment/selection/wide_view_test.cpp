@@ -32,7 +32,8 @@ GaussianCloud row(float x0, float x1) {
 }
 
 Margins margins_of(const GaussianCloud& cloud, std::span<const Camera> photographs = {}) {
-  return margins_of_correction(picture(), cloud, std::vector<std::uint8_t>(cloud.size(), 1), photographs);
+  return margins_of_correction(picture(), cloud, std::vector<std::uint8_t>(cloud.size(), 1),
+                               {.photographs = {photographs.begin(), photographs.end()}, .subject = {}});
 }
 
 }  // namespace

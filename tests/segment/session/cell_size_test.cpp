@@ -16,8 +16,10 @@
 #include "segment/session/session.h"
 #include "segment/session/stroke_hits.h"
 #include "segment/superpoints/orbit.h"
+#include "synthetic_cloud.h"
 
 using namespace splatcut;
+using namespace splatcut::testing;
 
 namespace {
 
@@ -172,6 +174,37 @@ TEST_CASE("cells: around a click from near is prepared what is prepared from whe
   CHECK(looked_at(near, std::vector<Camera>(2, far.camera)) == from_near);
   CHECK(looked_at(near, std::vector<Camera>(3, far.camera)) == from_far);
   CHECK(looked_at(far, std::vector<Camera>(3, near.camera)) == from_far);
+}
+
+// A plate of fine splats with a red spot, and coarse ones far around. Half of the plate lies within .8 of its
+// middle: its usual picture is 1.84 broad.
+TEST_CASE("cells: without photographs, a close-up of the subject is looked at as its usual picture is") {
+  constexpr int kSteps = 90;
+  const auto cloud = std::make_shared<GaussianCloud>(random_cloud(kSteps * kSteps + 1000, 3));
+  for (std::size_t g = 0; g < cloud->size(); ++g) {
+    cloud->opacity[g] = 0.98f;
+    if (g >= kSteps * kSteps) {
+      cloud->position[g] *= 30.0f / glm::length(cloud->position[g]);
+      continue;
+    }
+    const glm::vec2 at = glm::vec2(g % kSteps, g / kSteps) * (2.0f / kSteps) - 1.0f;
+    cloud->position[g] = {at, 0};
+    cloud->scale[g] = {0.02f, 0.02f, 0.001f};
+    cloud->rotation[g] = {1, 0, 0, 0};
+    cloud->f_dc[g] = glm::length(at) < 0.12f ? glm::vec3(1.5f, -1.5f, -1.5f) : glm::vec3(0.2f);
+  }
+  const auto looked_at = [&](float distance) {
+    Camera camera = look_at({0, 0, -distance}, glm::vec3(0), {0, -1, 0}, 0.9f, 160, 160);
+    camera.fx_px = camera.fy_px = 160;  // as broad as far
+    Session session({.cloud = cloud});
+    CutRequest request;
+    request.strokes = {{camera, {click({80, 80}, SeedLabel::kObject)}}};
+    return session.cut(request, CutSettings()).looked_at_gaussians;
+  };
+  const std::size_t usual = looked_at(1.84f);
+  CHECK(usual > 1000);
+  CHECK(looked_at(0.95f) == usual);
+  CHECK(looked_at(0.5f) < usual);  // one thing of many
 }
 
 TEST_CASE("cells: a splat that shows far from its centre is found, though no Gaussian lies where it is hit") {

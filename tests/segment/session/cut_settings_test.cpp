@@ -81,8 +81,7 @@ TEST_CASE("part model: each weight has a name of its own and is what was set") {
 TEST_CASE("settings: a cut has as many neighbours a Gaussian as its preset says, paper-code nine") {
   constexpr std::size_t kGaussians = 60;
   const auto cloud = std::make_shared<const GaussianCloud>(random_cloud(kGaussians, 3));
-  LocalSession session(
-      {.cloud = cloud, .prepared = std::make_shared<const PreparedScene>(), .photographs = {}});
+  LocalSession session({.cloud = cloud, .prepared = std::make_shared<const PreparedScene>(), .capture = {}});
   for (const auto& [name, neighbours] :
        {std::pair<const char*, std::size_t>("default", 10), {"paper-code", 9}, {"paper", 10}}) {
     CAPTURE(name);

@@ -60,15 +60,18 @@ TEST_CASE("a neighbourhood holds the Gaussians of its cell, as they are, and vie
   CHECK(near.row == scene.blocks->rows_in(*scene.cloud, place.cell.box_world()));
   for (std::size_t i = 0; i < near.row.size(); ++i)
     REQUIRE(near.cloud->position[i] == scene.cloud->position[near.row[i]]);
-  const std::vector<Camera> views = views_around(scene, place, {});
-  CHECK(views.size() == 12);
-  const float distance = glm::distance(views.front().centre_world(), place.looked_at.centre_world());
-  for (const Camera& view : std::span(views).subspan(1)) {
-    CHECK(glm::distance(view.centre_world(), place.looked_at.centre_world()) ==
-          doctest::Approx(1.5f * distance).epsilon(1e-3));
-    const glm::vec3 at = view.camera_from_world(place.looked_at.centre_world());
-    CHECK(std::abs(at.x / at.z) < 1e-3f);
-    CHECK(std::abs(at.y / at.z) < 1e-3f);
+  for (const float closer : {1.0f, 2.0f}) {
+    place.closer = closer;
+    const std::vector<Camera> views = views_around(scene, place, {});
+    CHECK(views.size() == 12);
+    const float distance = glm::distance(views.front().centre_world(), place.looked_at.centre_world());
+    for (const Camera& view : std::span(views).subspan(1)) {
+      CHECK(glm::distance(view.centre_world(), place.looked_at.centre_world()) ==
+            doctest::Approx(1.5f * closer * distance).epsilon(1e-3));
+      const glm::vec3 at = view.camera_from_world(place.looked_at.centre_world());
+      CHECK(std::abs(at.x / at.z) < 1e-3f);
+      CHECK(std::abs(at.y / at.z) < 1e-3f);
+    }
   }
   place.whole = true;
   CHECK(prepare_neighbourhood(scene, place, nullptr).cloud == scene.cloud);
