@@ -176,7 +176,7 @@ std::string Clicks::why_not_step(int steps) const {
   }
   const std::size_t size = size_wanted(), last = known->count() - 1;
   if (last == 0) return "The click means one size alone";
-  if (last_stroke(object->views)->label == SeedLabel::kRest) {
+  if (last_takes_away(object->views)) {
     if (steps > 0 && size >= last) return "The click takes no more away than this";
     if (steps < 0 && size == 0) return "The click takes no less away than this";
   }
@@ -201,7 +201,7 @@ void Clicks::perform(const StepScale& c) {
   const std::string message = edit(&after, c, ws_.context());
   if (known) limit();
   stepped_s_ = ws_.clock_s;
-  edits_.push(c.title(), std::move(after), {}, message);
+  edits_.push(c.title(ws_.document()), std::move(after), {}, message);
 }
 
 // Whether the next click is thought about: by a click tool, in a still picture, while no cut runs.
