@@ -153,6 +153,11 @@ bool Studio::update(double seconds) {
 }
 
 std::string Studio::coming() const {
+bool Studio::unsaved_and_not_exported() const {
+  const bool all_exported = !edits_.waiting() && cuts_.next() == 0 && exports_.have_all();
+  return unsaved() && (!all_exported || work_.own_autosave().empty());
+}
+
   if (!ws_.scene) return files_.opening();
   return viewport_.picture() ? "" : "Drawing the first picture...";
 }
