@@ -10,6 +10,8 @@
 #include <nlohmann/json.hpp>
 
 #include "hands.h"
+#include "scene/cloud/strays.h"
+#include "segment/session/doubts.h"
 
 using namespace splatcut;
 using namespace splatcut::testing;
@@ -208,6 +210,19 @@ TEST_CASE("hands: the axes in the corner turn the view, and take the click") {
   const glm::vec2 middle(view.max.x - 55, view.min.y + 55);
   CHECK_FALSE(hands.app->interface().picture_at(middle, hands.studio()));
   hands.app.key(key::kKeypad1);
+TEST_CASE("hands: the view turns around what a box took") {
+  Hands hands(false);
+  hands.app.key('4');
+  const glm::vec2 apple = hands.app.screen_of(kOnApple);
+  hands.app.drag({apple - glm::vec2(45, 45), apple, apple + glm::vec2(45, 45)});
+  REQUIRE(hands.selected() > 0);
+  const glm::vec3 middle = robust_bounds(hands.studio().viewport().object_points()).centre();
+  CHECK(glm::distance(hands.studio().camera().turned_around(), middle) < 1e-4f);
+  const glm::vec2 before = hands.seen_at(middle);
+  hands.app.drag({{300, 120}, {360, 120}, {420, 120}}, PointerButton::kMiddle);
+  CHECK(glm::distance(hands.seen_at(middle), before) < 3);
+}
+
   REQUIRE(hands.app.settle());
   const glm::vec3 right(glm::row(hands.studio().viewport().pane_camera().camera_from_world_rotation, 0));
   const float x_side = right.x > 0 ? 1.0f : -1.0f;
