@@ -80,7 +80,7 @@ void CutJobs::take_cards(CutRun* run, const Order& order, const std::vector<std:
     if (run->result && labels == (run->views_labels ? *run->views_labels : run->result->labels))
       keep_looks(run->views, &cards);
   }
-  run->views = in_places_of(run->views, std::move(cards));
+  run->views = in_places_of(run->views.empty() && saved ? *saved : run->views, std::move(cards));
   run->views_before = order.before;
   run->views_drawn = true;
   for (ViewCard& card : run->views) card.serial = next_card_serial_++;
@@ -100,9 +100,10 @@ std::vector<DoubtfulSide> CutJobs::doubtful_sides() const {
     const std::vector<ViewCard>* cards = shown ? &shown->views : cards_known(object.id, object.cut_key);
     if (!cards) continue;
     const bool of_before = shown && !shown->views_drawn;  // looks at those end
-    for (const ViewCard& card : *cards)
-      if (of_before ? !card.looked_at && !card.open.empty() : card.looked_at || !card.open.empty())
-        sides.push_back({object.id, card.camera, card.looked_at, card.open});
+    for (const ViewCard& card : *cards) {
+      const bool ended = of_before && card.looked_at;
+      sides.push_back({object.id, card.camera, card.looked_at && !ended, ended ? OpenDoubts() : card.open});
+    }
   }
   return sides;
 }
