@@ -67,6 +67,34 @@ TEST_CASE("hands: where a click was from too far away, one comes nearer to what 
   CHECK(hands.said().find("first view") == std::string::npos);
 }
 
+TEST_CASE("hands: it is said to step back from what the picture crops until all of it was seen") {
+  Hands hands(false, with_kept_scenes(), kSample);
+  const glm::vec3 mug = hands.under(hands.app.screen_of(kOnMug));
+  hands.studio().camera().approach(mug, 0.25f);
+  REQUIRE(hands.app.settle());
+  const auto doubted = [&] {
+    const CutRun* run = hands.studio().cuts().run(hands.studio().document().active);
+    return run && std::ranges::find(run->doubts, kRunsOut) != run->doubts.end();
+  };
+  hands.app.click(hands.seen_at(mug));
+  REQUIRE(hands.app.settle());
+  for (int step = 0; step < 8 && !doubted(); ++step) {
+    hands.app.key(key::kPageUp);
+    REQUIRE(hands.app.settle());
+  }
+  REQUIRE(doubted());
+  hands.app.frames(5);
+  CHECK(doubted());
+  hands.app.key('F');  // all of it
+  REQUIRE(hands.app.settle());
+  hands.app.frames(2);
+  CHECK_FALSE(doubted());
+  hands.studio().apply(Undo{});
+  hands.studio().apply(Redo{});
+  REQUIRE(hands.app.settle());
+  CHECK_FALSE(doubted());
+}
+
 TEST_CASE("hands: one comes nearer to a stroke that begins outside of the picture, or is told why not") {
   Hands hands(false);
   const glm::vec2 apple = hands.in_viewport(hands.app.screen_of(kOnApple));
@@ -180,6 +208,19 @@ TEST_CASE("hands: the view turns around what was clicked") {
   CHECK(glm::distance(hands.seen_at(apple), before) < 3);
 }
 
+TEST_CASE("hands: the view turns around what a box took") {
+  Hands hands(false);
+  hands.app.key('4');
+  const glm::vec2 apple = hands.app.screen_of(kOnApple);
+  hands.app.drag({apple - glm::vec2(45, 45), apple, apple + glm::vec2(45, 45)});
+  REQUIRE(hands.selected() > 0);
+  const glm::vec3 middle = robust_bounds(hands.studio().viewport().object_points()).centre();
+  CHECK(glm::distance(hands.studio().camera().turned_around(), middle) < 1e-4f);
+  const glm::vec2 before = hands.seen_at(middle);
+  hands.app.drag({{300, 120}, {360, 120}, {420, 120}}, PointerButton::kMiddle);
+  CHECK(glm::distance(hands.seen_at(middle), before) < 3);
+}
+
 TEST_CASE("hands: while a flight key is held the wheel changes the speed, else it goes nearer") {
   Hands hands(false);
   hands.app.move(hands.app.screen_of(kOnMug));
@@ -210,19 +251,6 @@ TEST_CASE("hands: the axes in the corner turn the view, and take the click") {
   const glm::vec2 middle(view.max.x - 55, view.min.y + 55);
   CHECK_FALSE(hands.app->interface().picture_at(middle, hands.studio()));
   hands.app.key(key::kKeypad1);
-TEST_CASE("hands: the view turns around what a box took") {
-  Hands hands(false);
-  hands.app.key('4');
-  const glm::vec2 apple = hands.app.screen_of(kOnApple);
-  hands.app.drag({apple - glm::vec2(45, 45), apple, apple + glm::vec2(45, 45)});
-  REQUIRE(hands.selected() > 0);
-  const glm::vec3 middle = robust_bounds(hands.studio().viewport().object_points()).centre();
-  CHECK(glm::distance(hands.studio().camera().turned_around(), middle) < 1e-4f);
-  const glm::vec2 before = hands.seen_at(middle);
-  hands.app.drag({{300, 120}, {360, 120}, {420, 120}}, PointerButton::kMiddle);
-  CHECK(glm::distance(hands.seen_at(middle), before) < 3);
-}
-
   REQUIRE(hands.app.settle());
   const glm::vec3 right(glm::row(hands.studio().viewport().pane_camera().camera_from_world_rotation, 0));
   const float x_side = right.x > 0 ? 1.0f : -1.0f;
