@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "hands.h"
+#include "reopened.h"
 
 using namespace splatcut;
 using namespace splatcut::testing;
@@ -65,13 +65,7 @@ TEST_CASE("restored marks: sides are in doubt as they were when the work was sav
   }
   const auto before = marked_sides(hands.app);
   const ScratchFolder folder("restored_marks");
-  const auto file = folder / "marks.splatcut.json";
-  hands.studio().apply(SaveWork{file});
-  REQUIRE(hands.app.settle());
-  HeadlessApp again(kHandsWidth, kHandsHeight);
-  again.open(file);
-  REQUIRE(again.settle());
-  const auto after = marked_sides(again);
+  const auto after = marked_sides(*reopened(hands, folder));
   CHECK(said_of(after) == said_of(before));
   CHECK(after == before);
 }
