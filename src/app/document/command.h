@@ -178,7 +178,7 @@ struct ShowFloaters {
 };
 struct StepScale {
   int steps;  // steps to larger (+) or smaller (-) sizes of what the active object's last stroke means
-  std::string title() const { return steps > 0 ? "Larger part" : "Smaller part"; }
+  std::string title(const Document& document) const;  // says whether that takes away
   friend std::string edit(Document* document, const StepScale& command, const EditContext& context);
 };
 struct ChooseMeaning {

@@ -376,6 +376,12 @@ std::string edit(Document* document, const RestoreDeleted&, const EditContext&) 
   return "Deleted Gaussians restored";
 }
 
+std::string StepScale::title(const Document& document) const {
+  const ObjectItem* object = document.active_object();
+  if (object && last_takes_away(object->views)) return steps > 0 ? "Takes more away" : "Takes less away";
+  return steps > 0 ? "Larger part" : "Smaller part";
+}
+
 std::string edit(Document* document, const StepScale& command, const EditContext&) {
   if (!document->active_object()) throw Error("", "No object is chosen", "Click an object first");
   ObjectItem& object = unlocked(document, document->active);
@@ -383,7 +389,8 @@ std::string edit(Document* document, const StepScale& command, const EditContext
   Stroke* last = last_stroke(&object.views);
   if (!last) throw Error("", object.name + " has no clicks on it", "Click on it first");
   last->size_step = std::clamp(last->size_step + command.steps, -kMostSizeSteps, kMostSizeSteps);
-  return fmt::format("A {} part is being computed", command.steps > 0 ? "larger" : "smaller");
+  return fmt::format("A {} part {}is being computed", command.steps > 0 ? "larger" : "smaller",
+                     last_takes_away(object.views) ? "to take away " : "");
 }
 
 std::string ChooseMeaning::title(const Document& document) const {

@@ -1,4 +1,5 @@
-// Sides of objects on which nobody saw what strokes changed, as they are kept beside the document.
+// Sides of objects in the order of their thumbnails, with what nobody saw there of what strokes changed, as
+// they are kept beside the document.
 #pragma once
 
 #include <cstdint>
@@ -22,9 +23,10 @@ struct DoubtfulSide {
   Camera camera;
   bool looked_at = false;  // true: somebody looked at it, so its doubts end with the next stroke
   OpenDoubts open{};
-  // Doubts are shared as long as they stay, and tell their cameras.
+  // Doubts are shared as long as they stay.
   bool operator==(const DoubtfulSide& other) const {
-    return object == other.object && looked_at == other.looked_at && open == other.open;
+    return object == other.object && looked_at == other.looked_at && open == other.open &&
+           same_camera(camera, other.camera);
   }
 };
 

@@ -41,11 +41,11 @@ bool changed_little(const std::vector<std::uint8_t>& before, const std::vector<s
 }
 
 std::string why_so_already(const CutRequest& request, const CutResult& result) {
-  const bool adds = last_stroke(request.strokes)->label == SeedLabel::kObject;
+  const bool adds = !last_takes_away(request.strokes);
   return std::string(adds ? "that place belongs to it already. To take more, click what is missing"
                           : "that place does not belong to it as it is. To remove more, right-click a piece "
                             "of it") +
-         (result.size + 1 < result.sizes ? ", or press + for a larger part" : "");
+         (result.size + 1 < result.sizes ? adds ? ", or press + for a larger part" : ", or press +" : "");
 }
 
 std::string why_no_larger(bool first_stroke, std::size_t taken, std::size_t all) {
@@ -70,7 +70,8 @@ std::string wheel_hint(const CutRequest& request, const CutResult& result,
   const bool more = result.size + 1 < result.sizes;
   const bool less = result.size > 0 && (first || !changed_little(before, after));
   return std::string(more || less ? ". The wheel takes " : "") + (more ? "more" : "") +
-         (more && less ? " or " : "") + (less ? "less" : "");
+         (more && less ? " or " : "") + (less ? "less" : "") +
+         ((more || less) && last_takes_away(request.strokes) ? " away" : "");
 }
 
 bool add_doubt_of_sides(CutRun* run) {

@@ -80,6 +80,7 @@ void Clicks::perform(const AddStroke& c) {
   // The view turns around what was clicked; around the object as long as that is alone.
   if (on && ws_.view.display == DisplayMode::kWhole && c.stroke.is_click() && viewport_.panes() == 1)
     viewport_.camera().set_orbit_centre(on->position_world);
+  turns_about_ = adds && !on ? after.active : 0;
   if (!held.empty() || !any_mark(*after.active_object())) ws_.tools.disarm_scale();
   if (!held.empty()) cuts_.note_so_already(cut_key(after, *after.active_object()));
   edits_.push(c.title(), std::move(after), {}, held.empty() ? message : held);
@@ -176,7 +177,7 @@ std::string Clicks::why_not_step(int steps) const {
   }
   const std::size_t size = size_wanted(), last = known->count() - 1;
   if (last == 0) return "The click means one size alone";
-  if (last_stroke(object->views)->label == SeedLabel::kRest) {
+  if (last_takes_away(object->views)) {
     if (steps > 0 && size >= last) return "The click takes no more away than this";
     if (steps < 0 && size == 0) return "The click takes no less away than this";
   }
@@ -201,7 +202,7 @@ void Clicks::perform(const StepScale& c) {
   const std::string message = edit(&after, c, ws_.context());
   if (known) limit();
   stepped_s_ = ws_.clock_s;
-  edits_.push(c.title(), std::move(after), {}, message);
+  edits_.push(c.title(ws_.document()), std::move(after), {}, message);
 }
 
 // Whether the next click is thought about: by a click tool, in a still picture, while no cut runs.
@@ -396,8 +397,21 @@ void Clicks::leave_what_came() {
   }
 }
 
+// Where no surface was hit, as by a box or a click on fog, the view turns around what came of it.
+void Clicks::turn_about_cut() {
+  const ObjectItem* object = turns_about_ != 0 ? ws_.document().active_object() : nullptr;
+  if (!object || object->id != turns_about_) {
+    turns_about_ = 0;
+    return;
+  }
+  if (edits_.waiting() || cuts_.comes(*object)) return;
+  turns_about_ = 0;
+  viewport_.turn_about_object();
+}
+
 void Clicks::update() {
   leave_what_came();
+  turn_about_cut();
   if (std::exchange(cuts_done_, cuts_.done()) != cuts_.done()) note_sizes();
   refresh_hover();
   if (!ws_.options.works_ahead) return;
@@ -409,6 +423,7 @@ void Clicks::reset() {
   hover_.reset();
   ready_ = {};
   declined_offer_.clear();
+  turns_about_ = 0;
 }
 
 // Before they are known, the keys of others than the likeliest are no tools either: else it would depend on

@@ -99,6 +99,7 @@ class Clicks {
   void show_hover(const Flags& change, bool rest);
   void combine_with(const CameraStroke& stroke, SetOperation operation, const std::string& title);
   void note_sizes();
+  void turn_about_cut();
   void cut_sizes_ahead();
 
   Workspace& ws_;
@@ -128,6 +129,7 @@ class Clicks {
   double stepped_s_ = -1e9;      // clock time of the last choice of a size, or click that found some
   std::uint64_t cuts_done_ = 0;  // CutJobs::done() at the last update()
   bool pointer_inside_ = false;
+  ObjectId turns_about_ = 0;  // object that the view turns around once it is cut; 0: none
 };
 
 }  // namespace splatcut

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "app/console/kept_inputs.h"
 #include "app/picture/capture.h"
 #include "app/picture/turntable.h"
@@ -19,6 +21,16 @@ void Exports::written(const std::filesystem::path& path, const OpenedScene& of) 
   if (ws_.scene && ws_.scene->files.front().id == of.files.front().id) last_ = path;
 }
 
+bool Exports::have_all() const {
+  const Document& document = ws_.document();
+  if (!ws_.scene || document.deleted || ws_.scene->files.size() > 1) return false;
+  return std::ranges::all_of(document.objects, [&](const ObjectItem& item) {
+    const Flags now = ws_.labels.labels(document, item, ws_.gaussians());
+    const auto then = exported_.find(item.id);
+    return count_flags(*now) == 0 || (then != exported_.end() && *then->second == *now);
+  });
+}
+
 void Exports::perform(const Export& c) {
   ws_.require_scene();
   if (is_work_file(c.request.path)) {
@@ -27,14 +39,21 @@ void Exports::perform(const Export& c) {
   }
   const TaskThread::Order export_order(TaskKind::kExport,
                                        [this] { ws_.ui_requests.push_back(UiRequest::kExportFailed); });
+  const bool all = c.request.what == ExportWhat::kAllObjects || c.request.what == ExportWhat::kOneFile;
+  std::map<ObjectId, Flags> objects;  // that are written
+  for (const ObjectItem& item : ws_.document().objects)
+    if (all || (c.request.what == ExportWhat::kObject && item.id == ws_.document().active))
+      objects[item.id] = ws_.labels.labels(ws_.document(), item, ws_.gaussians());
   ws_.tasks.submit(
-      export_order, [this, request = c.request, document = ws_.document(), object = ws_.document().active,
-                     scene = ws_.scene, clean = ws_.clean](const Job& job) {
+      export_order, [this, objects, request = c.request, document = ws_.document(),
+                     object = ws_.document().active, scene = ws_.scene, clean = ws_.clean](const Job& job) {
         job.progress("exporting", 0);
         const ExportReport report = run_export(*scene->scene, document, object, request, clean.get(), job);
         if (job.cancelled()) return;
-        ws_.tasks.post([this, report, path = request.path, scene] {
+        ws_.tasks.post([this, report, objects, path = request.path, scene] {
           written(path, *scene);
+          if (scene == ws_.scene)
+            for (const auto& [id, labels] : objects) exported_[id] = labels;
           ws_.say(report.hole_kept.empty() ? Message::Kind::kDone : Message::Kind::kRefused,
                   text_of(report, path));
         });

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 
 #include "app/document/command.h"
 #include "app/workspace/viewport.h"
@@ -18,7 +19,10 @@ class Exports {
   void perform(const SaveSnapshot& c);
   void perform(const SaveTurntable& c);
 
-  void reset() { last_.clear(); }  // another scene was opened
+  void reset() {  // another scene was opened
+    last_.clear();
+    exported_.clear();
+  }
 
   // Path of the scene, folder of scenes, or turntable that was written last of the scene that is open; empty:
   // none was.
@@ -26,6 +30,8 @@ class Exports {
   // Folder in which the last of all was written, also before the program began; empty: none was, or
   // it was the scene's own.
   const std::filesystem::path& folder() const { return folder_; }
+  // True: every object is in a file as it is now, and the objects are all that was made.
+  bool have_all() const;
   void begin_in(std::filesystem::path folder) { folder_ = std::move(folder); }
 
  private:
@@ -34,6 +40,7 @@ class Exports {
   Workspace& ws_;
   const Viewport& viewport_;
   std::filesystem::path last_, folder_;
+  std::map<ObjectId, Flags> exported_;  // labels with which objects were written last
 };
 
 }  // namespace splatcut

@@ -62,6 +62,7 @@ void Clicks::perform(const AddBox& c) {
   if (has_all(c.seen))
     throw Error("", "All that is shown belongs to " + ws_.document().active_object()->name + " already",
                 "The right button, or Ctrl, removes what a box holds; Alt keeps it alone");
+  turns_about_ = after.active;
   edits_.push(c.title(), std::move(after), {}, message);
 }
 

@@ -144,12 +144,18 @@ bool Studio::update(double seconds) {
   run_held();
   const bool moves = viewport_.update(seconds, flight());
   if (ws_.scene && !viewport_.moving()) cuts_.looked_from(viewport_.pane_camera());
+  if (ws_.scene && cuts_.doubts_whole() && viewport_.shows_all_of_object()) cuts_.saw_whole();
   clean_edges_.update();
   seen_views_.update();
   clicks_.update();
   files_.update();
   work_.update(seconds);
   return moves || !idle() || clicks_.sizes_fade();
+}
+
+bool Studio::unsaved_and_not_exported() const {
+  const bool all_exported = !edits_.waiting() && cuts_.next() == 0 && exports_.have_all();
+  return unsaved() && (!all_exported || work_.own_autosave().empty());
 }
 
 std::string Studio::coming() const {

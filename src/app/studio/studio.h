@@ -88,6 +88,9 @@ class Studio {
 
   // True if work is unsaved, also while it is being written.
   bool unsaved() const { return edits_.waiting() || work_.unsaved(); }
+  // True if something that nobody has in a file would be missed: not where all objects were exported as they
+  // are and a copy of the work, from which they can be changed further, is kept by itself.
+  bool unsaved_and_not_exported() const;
   bool waiting() const { return edits_.waiting(); }  // true: commands wait for an edit, or for cuts
   bool loading() const { return tasks_.busy(TaskKind::kLoad); }
   std::string coming() const;  // what the empty view is going to show; empty: it shows its picture

@@ -23,7 +23,9 @@ constexpr ToolAction kToolActions[] = {
 };
 
 constexpr const char *kTools = "Tools", *kMovesCursor = "A cursor in the picture (Shift far, Alt near)",
-                     *kPresses = "Click at that cursor, or close the polygon";
+                     *kPresses = "Click at that cursor, or close the polygon",
+                     *kLarger = "Larger part of what was clicked, or taken away",
+                     *kSmaller = "Smaller part of what was clicked, or taken away";
 
 // Those of the tools stand in their rows.
 constexpr std::array kOwnBindings = {
@@ -50,12 +52,12 @@ constexpr std::array kOwnBindings = {
     Binding{Action::kBrushLarger, ']', kPlain, kTools, "Larger brush"},
     Binding{Action::kSeeThrough, 'V', kPlain, kTools, "Visible only, or see-through"},
     Binding{Action::kByCentre, 'V', kShift, kTools, "By centres, or by whole Gaussians"},
-    Binding{Action::kPartLarger, '=', kPlain, kTools, "Larger part of what was clicked"},
-    Binding{Action::kPartLarger, key::kKeypadAdd, kPlain, kTools, "Larger part of what was clicked"},
-    Binding{Action::kPartLarger, key::kPageUp, kPlain, kTools, "Larger part of what was clicked"},
-    Binding{Action::kPartSmaller, '-', kPlain, kTools, "Smaller part of what was clicked"},
-    Binding{Action::kPartSmaller, key::kKeypadSubtract, kPlain, kTools, "Smaller part of what was clicked"},
-    Binding{Action::kPartSmaller, key::kPageDown, kPlain, kTools, "Smaller part of what was clicked"},
+    Binding{Action::kPartLarger, '=', kPlain, kTools, kLarger},
+    Binding{Action::kPartLarger, key::kKeypadAdd, kPlain, kTools, kLarger},
+    Binding{Action::kPartLarger, key::kPageUp, kPlain, kTools, kLarger},
+    Binding{Action::kPartSmaller, '-', kPlain, kTools, kSmaller},
+    Binding{Action::kPartSmaller, key::kKeypadSubtract, kPlain, kTools, kSmaller},
+    Binding{Action::kPartSmaller, key::kPageDown, kPlain, kTools, kSmaller},
     Binding{Action::kSelectAll, 'A', kCtrl, "Selection", "Select all"},
     Binding{Action::kSelectNone, 'D', kCtrl, "Selection", "Select none"},
     Binding{Action::kSelectNone, 'A', kCtrlShift, "Selection", "Select none"},

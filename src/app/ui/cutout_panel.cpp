@@ -62,7 +62,8 @@ void size_slider(UiContext& ui, const ObjectItem& object) {
   }
   const auto sizes = static_cast<int>(known->count()),
              taken = static_cast<int>(ui.studio.clicks().size_wanted());
-  slider_label("Part  " + size_beside(taken - static_cast<int>(known->likeliest)));
+  const bool away = last_takes_away(object.views);
+  slider_label((away ? "Taken away  " : "Part  ") + size_beside(taken - static_cast<int>(known->likeliest)));
   ImGui::BeginDisabled(object.locked);
   const float from = ImGui::GetCursorScreenPos().x, width = ImGui::CalcItemWidth();
   int step = taken + 1;
@@ -74,9 +75,11 @@ void size_slider(UiContext& ui, const ObjectItem& object) {
     ui.state.size_pointed = static_cast<std::size_t>(pointed);
   if (ImGui::IsItemDeactivated() && pointed != taken) ui.ask(StepScale{pointed - taken});
   ImGui::EndDisabled();
-  tooltip(pointed == taken ? "The part that the last click takes"
-                           : fmt::format("Take the part {}  (wheel after the click, Page Up, Page Down)",
-                                         size_beside(pointed - static_cast<int>(known->likeliest))));
+  const char* direction = away ? " away" : "";
+  tooltip(pointed == taken
+              ? fmt::format("The part that the last click takes{}", direction)
+              : fmt::format("Take the part {}{}  (wheel after the click, Page Up, Page Down)",
+                            size_beside(pointed - static_cast<int>(known->likeliest)), direction));
 }
 
 void smoothness_slider(UiContext& ui, const ObjectItem& object) {

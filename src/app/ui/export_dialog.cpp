@@ -59,6 +59,21 @@ HoleKnown hole_known(const Studio& studio, ExportWhat what) {
   return {true, studio.finish().without()};
 }
 
+// Of the objects that the file is about; empty: none of their sides is.
+std::string sides_in_doubt(const Studio& studio, ExportWhat what) {
+  if (what == ExportWhat::kScene) return {};
+  const bool all = what == ExportWhat::kAllObjects || what == ExportWhat::kOneFile;
+  const Document& document = studio.document();
+  std::size_t sides = 0;
+  for (const ObjectItem& item : document.objects)
+    if (const CutRun* run = all || item.id == document.active ? studio.cuts().run(item.id) : nullptr)
+      sides += static_cast<std::size_t>(
+          std::ranges::count_if(run->views, [](const ViewCard& card) { return !card.doubt.empty(); }));
+  if (sides == 0) return {};
+  return fmt::format("{} in doubt: see the thumbnails with a question mark.",
+                     sides == 1 ? "One side is" : fmt::format("{} sides are", sides));
+}
+
 void propose_path(UiContext& ui) {
   ExportChoice& choice = ui.state.exporting;
   choice.path = proposed_path(choice, ui.studio.scene()->scene->path, ui.studio.document().active_object(),
@@ -337,6 +352,8 @@ void export_dialog(UiContext& ui) {
   for (const std::string& text :
        {numbers_text(choice), moved_text(choice.placement), edges_stay_text(edges), changes})
     if (!text.empty()) fact(icon::kInfo, p.accent, text);
+  if (const std::string doubt = sides_in_doubt(ui.studio, choice.what); !doubt.empty())
+    fact(icon::kWarning, p.warn, doubt);
   if (const std::string why = hole.why_not(); !why.empty())
     fact(icon::kWarning, p.warn, "The hole stays: " + why + ".");
   if (const std::string lost = loss_text(choice, edges, hole, plan); !lost.empty())

@@ -158,7 +158,9 @@ struct UiState {
   TurntableChoice turntable;
   PropertyChoice property;
   std::optional<std::size_t>
-      size_pointed;         // size of the last click whose step the pointer is at in the panel
+      size_pointed;  // size of the last click whose step the pointer is at in the panel
+  // Pointer when a thumbnail was clicked: until it moves, the picture is looked at, not the thumbnail's tip.
+  std::optional<glm::vec2> looked_from_card_at;
   RingsShown rings[2];      // of each pane
   CentresShown centres[2];  // of each pane
   GridShown grid;

@@ -45,13 +45,21 @@ void save_first(UiContext& ui, const std::optional<OpenScene>& next) {
   ui.state.after_save = {next, ui.studio.work().saves(), ui.studio.history().cursor()};
 }
 
+// What was exported is no saved work, but nothing of it goes.
+std::string what_is_not_saved(const Studio& studio) {
+  if (studio.exports().last().empty()) return "The objects and strokes were not saved since they changed. ";
+  return studio.exports().have_all()
+             ? "The objects are exported, and these files stay. The clicks that made them are not saved. "
+             : "The objects and strokes were not saved since they changed; files that were exported stay. ";
+}
+
 }  // namespace
 
 void open_anyway_dialog(UiContext& ui) {
   const std::string name = ui.state.open_asked ? scene_name(ui.state.open_asked->path) : "";
   const UnsavedAnswer answer = unsaved_dialog(
       ui, "Open without saving?###open_anyway", ui.state.open_asked.has_value(),
-      "The objects and strokes were not saved since they changed. " +
+      what_is_not_saved(ui.studio) +
           (ui.studio.work().own_autosave().empty()
                ? fmt::format("That work ends once {} is open; if it cannot be read, the work stays.", name)
                : std::string("A copy is kept all the same and offered in the right panel.")),
@@ -64,10 +72,10 @@ void open_anyway_dialog(UiContext& ui) {
 
 void quit_dialog(UiContext& ui) {
   const bool unsaved = ui.studio.unsaved();
-  const std::string work =
-      unsaved ? "The objects and strokes were not saved since they changed. A copy is kept all the same and "
-                "offered at the next start. "
-              : "";
+  const std::string kept = ui.studio.work().own_autosave().empty()
+                               ? "That work ends with the program. "
+                               : "A copy is kept all the same and offered at the next start. ";
+  const std::string work = unsaved ? what_is_not_saved(ui.studio) + kept : "";
   const std::string exported =
       ui.studio.exporting() ? "An export is still being written: it is stopped, and files of before stay."
       : unsaved             ? ""

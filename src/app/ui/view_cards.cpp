@@ -71,12 +71,19 @@ void card(UiContext& ui, const CutRun& run, const ObjectItem& object, const View
   const auto [width, height] = size;
   ImGui::PushID(static_cast<int>(index));
   const ImVec2 at = ImGui::GetCursorScreenPos();
-  if (ImGui::InvisibleButton("card", {width, height})) ui.ask(GoToCamera{c.camera});
+  const glm::vec2 pointer(ImGui::GetIO().MousePos.x, ImGui::GetIO().MousePos.y);
+  if (ImGui::InvisibleButton("card", {width, height})) {
+    ui.ask(GoToCamera{c.camera});
+    ui.state.looked_from_card_at = pointer;
+  }
   ImGui::SetItemAllowOverlap();
   const bool hovered = ImGui::IsItemHovered();
   ui.state.items.push_back({fmt::format("side {}", index), {at.x, at.y}, {at.x + width, at.y + height}});
-  tooltip(tip_of_card(c, index, ui.state.steady), ui.state.message,
-          hovered ? larger(ui, run, c) : TipPicture());
+  if (ui.state.looked_from_card_at != pointer) {
+    ui.state.looked_from_card_at.reset();
+    tooltip(tip_of_card(c, index, ui.state.steady), ui.state.message,
+            hovered ? larger(ui, run, c) : TipPicture());
+  }
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const ImVec2 end = {at.x + width, at.y + height};
   list.AddImageRounded(ui.renderer.texture(kCardKey + index, c.serial, *c.picture), at, end, {0, 0}, {1, 1},

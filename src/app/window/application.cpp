@@ -230,7 +230,7 @@ void Application::handle_one(const FileDropped& event) {
 
 void Application::open(const OpenScene& command) {
   interface_.state().after_save.reset();
-  if (studio_.unsaved())
+  if (studio_.unsaved_and_not_exported())
     interface_.state().open_asked = command;
   else
     studio_.apply(command);

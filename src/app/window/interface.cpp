@@ -314,7 +314,7 @@ void Interface::show(UiRequest request, const Studio& studio, UiRenderer* render
       state_.history_wanted = !state_.history_open;
       return;
     case UiRequest::kQuit:
-      if (studio.unsaved() || studio.exporting())
+      if (studio.unsaved_and_not_exported() || studio.exporting())
         state_.quit_asked = true;
       else
         state_.quit_wanted = true;

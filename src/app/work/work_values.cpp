@@ -199,7 +199,7 @@ json sides_json(std::span<const DoubtfulSide> sides, const Scene& scene) {
 }
 
 std::vector<DoubtfulSide> sides_from(const json& j, const Scene& scene) {
-  constexpr std::size_t kMostSides = 16 * kMostObjects, kMostNoted = std::size_t{1} << 26;
+  constexpr std::size_t kMostSides = 64 * kMostObjects, kMostNoted = std::size_t{1} << 26;
   std::vector<DoubtfulSide> sides;
   std::size_t noted = 0;  // a short text may name all Gaussians many times
   if (j.size() > kMostSides) throw Error("sides", fmt::format("there are {}", j.size()));

@@ -50,6 +50,7 @@ ObjectId CutJobs::next() const {
 // Cuts that no object shows now are kept for undo and redo, the last few: one that is forgotten has no
 // pictures of its views then, as in opened work.
 void CutJobs::keep(Known fresh) {
+  fresh.run.doubts = still_doubted(fresh.object, std::move(fresh.run.doubts));
   constexpr std::ptrdiff_t kMostHidden = 24;
   std::erase_if(known_,
                 [&](const Known& k) { return k.object == fresh.object && k.run.key == fresh.run.key; });
@@ -71,6 +72,7 @@ void CutJobs::reset() {
   ahead_serial_ = 0;
   given_up_.clear();
   doubts_said_.clear();
+  seen_whole_.clear();
   sides_said_.clear();
 }
 
@@ -337,6 +339,7 @@ void CutJobs::finish(const Order& order, CutRun run, const Flags& labels) {
   run.stages = run.result->stages.empty() ? now.stages : run.result->stages;
   run.first_mask_ms = now.first_mask_ms == 0 ? run.total_ms : now.first_mask_ms;
   const std::shared_ptr<const CutResult> result = run.result;
+  run.doubts = still_doubted(order.object, std::move(run.doubts));
   const std::string doubt = doubt_to_say(order.object, run);
   const double seconds = run.total_ms / 1000;
   running_.reset();

@@ -47,8 +47,12 @@ class CutJobs {
   // Draws the active object's thumbnail of that number larger, if the worker has nothing else to do.
   void draw_larger(std::uint64_t card_serial);
   void looked_from(const Camera& camera);  // the person has: sides that it shows are looked at
-  // What the thumbnails of all objects are in doubt of, to be kept; and what they were when the work that was
-  // opened now was saved, for when they are drawn.
+  // True if the active object's cut is in doubt as the view of its first click crops it. Once the person has
+  // seen all of it, from this click on it is not.
+  bool doubts_whole() const;
+  void saw_whole();
+  // The thumbnails of all objects in their order, with what they are in doubt of, to be kept; and what they
+  // were when the work that was opened now was saved, for when they are drawn.
   std::vector<DoubtfulSide> doubtful_sides() const;
   void take_doubtful_sides(std::span<const DoubtfulSide> sides);
   // The cut of that key is of a click that asks for what is so already: said if it changes nothing.
@@ -82,6 +86,7 @@ class CutJobs {
   CutRun* known_run(ObjectId object, const std::string& key);
   bool runs(const Order& order) const;
   void keep(Known known);
+  std::vector<std::string> still_doubted(ObjectId object, std::vector<std::string> doubts) const;
   Order order_for(const ObjectItem& object) const;
   void start(const ObjectItem& object, bool anew = false);
   bool take_known(const Order& order);
@@ -110,7 +115,8 @@ class CutJobs {
   std::vector<Known> ahead_;        // cuts that were not asked for yet; without a result: one that failed
   std::uint64_t ahead_serial_ = 0;  // History::serial() for which no cut ahead is missing
   std::set<std::string> given_up_;  // keys of cuts that were cancelled or failed
-  std::string so_already_;          // key, see note_so_already()
+  std::map<ObjectId, std::string> seen_whole_;  // key of the first click of objects of which all was seen
+  std::string so_already_;                      // key, see note_so_already()
   std::map<ObjectId, std::vector<std::string>> doubts_said_;  // after the last cut
   std::map<ObjectId, std::string> sides_said_;                // the same, of the pictures of its sides
   std::uint64_t next_card_serial_ = 1, started_ = 0, done_ = 0;

@@ -80,7 +80,7 @@ void CutJobs::take_cards(CutRun* run, const Order& order, const std::vector<std:
     if (run->result && labels == (run->views_labels ? *run->views_labels : run->result->labels))
       keep_looks(run->views, &cards);
   }
-  run->views = in_places_of(run->views, std::move(cards));
+  run->views = in_places_of(run->views.empty() && saved ? *saved : run->views, std::move(cards));
   run->views_before = order.before;
   run->views_drawn = true;
   for (ViewCard& card : run->views) card.serial = next_card_serial_++;
@@ -100,9 +100,10 @@ std::vector<DoubtfulSide> CutJobs::doubtful_sides() const {
     const std::vector<ViewCard>* cards = shown ? &shown->views : cards_known(object.id, object.cut_key);
     if (!cards) continue;
     const bool of_before = shown && !shown->views_drawn;  // looks at those end
-    for (const ViewCard& card : *cards)
-      if (of_before ? !card.looked_at && !card.open.empty() : card.looked_at || !card.open.empty())
-        sides.push_back({object.id, card.camera, card.looked_at, card.open});
+    for (const ViewCard& card : *cards) {
+      const bool ended = of_before && card.looked_at;
+      sides.push_back({object.id, card.camera, card.looked_at && !ended, ended ? OpenDoubts() : card.open});
+    }
   }
   return sides;
 }
@@ -146,7 +147,8 @@ void CutJobs::renew_views() {
     if (!shown) return;
     take_cards(shown, order, *now, std::move(cards));
     shown->views_labels = now;
-    shown->doubts = as_cut ? doubts_of(*shown->result) : std::vector<std::string>();
+    shown->doubts =
+        as_cut ? still_doubted(order.object, doubts_of(*shown->result)) : std::vector<std::string>();
     add_doubt_of_sides(shown);
     ++ws_.view_serial;
   };
@@ -197,6 +199,27 @@ void CutJobs::looked_from(const Camera& camera) {
   for (Known& known : known_)  // other sizes and states of it, whose sides it shows as well
     if (known.object == object->id)
       for (ViewCard& card : known.run.views) card.looked_at = card.looked_at || looks(card);
+}
+
+bool CutJobs::doubts_whole() const {
+  const CutRun* shown = run(ws_.document().active);
+  return shown && !shown->running && std::ranges::find(shown->doubts, kRunsOut) != shown->doubts.end();
+}
+
+void CutJobs::saw_whole() {
+  const ObjectItem* object = ws_.document().active_object();
+  if (!object) return;
+  seen_whole_[object->id] = ws_.history.keys(*object).first_click;
+  for (Known& known : known_)  // other sizes and states of it
+    if (known.object == object->id) known.run.doubts = still_doubted(object->id, std::move(known.run.doubts));
+}
+
+std::vector<std::string> CutJobs::still_doubted(ObjectId id, std::vector<std::string> doubts) const {
+  const ObjectItem* object = ws_.document().find(id);
+  const auto seen = seen_whole_.find(id);
+  if (object && seen != seen_whole_.end() && seen->second == ws_.history.keys(*object).first_click)
+    std::erase(doubts, kRunsOut);
+  return doubts;
 }
 
 // Of the active object's labels, for the heat map: kept by the session from the last cut, or computed again.

@@ -7,6 +7,7 @@
 
 #include "app/document/words.h"
 #include "scene/cloud/strays.h"
+#include "segment/session/doubts.h"
 
 namespace splatcut {
 
@@ -126,6 +127,17 @@ std::vector<glm::vec3> Viewport::object_points() const {
 void Viewport::turn_about_object() {
   if (const std::vector<glm::vec3> points = object_points(); !points.empty())
     camera_.set_orbit_centre(robust_bounds(points).centre());
+}
+
+bool Viewport::shows_all_of_object() const {
+  if (!style_current() || !active_labels() || ws_.view.display == DisplayMode::kHide) return false;
+  const std::shared_ptr<const Frame> frame = full_picture_of(pane_camera());
+  if (!frame) return false;
+  Mask mask(frame->first_hit.width(), frame->first_hit.height());
+  std::ranges::transform(frame->first_hit.pixels(), mask.pixels().begin(), [&](std::int32_t g) {
+    return g >= 0 && (*active_labels())[static_cast<std::size_t>(g)] ? kMaskObject : std::uint8_t{0};
+  });
+  return shows_whole(mask);
 }
 
 DrawLimits Viewport::draw_limits() const {

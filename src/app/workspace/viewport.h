@@ -43,6 +43,8 @@ class Viewport {
   glm::vec2 size_px() const { return {width_px_, height_px_}; }
   // Points where the active object's Gaussians show; strays do not count.
   std::vector<glm::vec3> object_points() const;
+  // True: the present picture shows the active object, and does not crop it.
+  bool shows_all_of_object() const;
   Camera pane_camera() const;  // camera of each pane: two panes show the same view
   int panes() const { return std::max(1, styles_.panes); }  // number of panes that are shown
   int pane_at(const glm::vec2& pixel) const;                // pane under the pixel; during a drag, the drag's

@@ -18,9 +18,9 @@
 
 namespace splatcut {
 
-// Flags per leaf; none if the view has no colour.
+// Flags per leaf; none if the view has no colour. Where the view knows them of this box, these.
 std::vector<std::uint8_t> leaves_by_colour(const PartHierarchy& parts, const LeafView& view,
-                                           const Stroke& box, const MaskToPartsOptions& options = {});
+                                           const Stroke& box);
 
 // Whether the leaves found by colour are a better answer to the box than the others. meanings: of this box in
 // this view.

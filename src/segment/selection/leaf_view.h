@@ -38,6 +38,10 @@ struct LeafView {
   std::vector<float> alone_px;       // pixels that each Gaussian has if nothing occludes it; empty: not known
   std::vector<float> leaf_px;        // sum of each leaf's weights, pixels
   std::vector<float> leaf_frame_px;  // sum of each leaf's weights at the picture's frame, pixels
+  // Corners of a box, pixels, and flags per leaf of what it means by colour; empty: not known. Other meanings
+  // and sizes of that box ask again.
+  std::vector<glm::vec2> box_px;
+  std::vector<std::uint8_t> box_by_colour;
 
   std::size_t bytes() const;
 };

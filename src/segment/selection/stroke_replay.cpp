@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "segment/masks/mask_tools.h"
+#include "segment/selection/box_by_colour.h"
 #include "segment/selection/wide_view.h"
 
 namespace splatcut {
@@ -114,6 +115,10 @@ std::shared_ptr<ClickSelection> StrokeReplay::after_in_view(const Drawer& drawer
     auto next = std::make_shared<ClickSelection>(before);
     const float factor = static_cast<float>(width_px) / static_cast<float>(said.camera.width_px);
     const Stroke stroke = scaled({said.stroke}, factor).front();
+    if (!before.any() && stroke.is_box()) {
+      seen->box_by_colour = leaves_by_colour(parts_, *seen, stroke);
+      seen->box_px = stroke.points_px;
+    }
     if (!before.any()) seen->close_up = close_up(*seen, stroke.points_px.front());
     next->apply(*seen, stroke);
     if (said.earlier) next->keep_sizes_of(before);

@@ -121,6 +121,11 @@ const Stroke* last_stroke(const std::vector<StrokedView>& strokes) {
   return last_stroke(const_cast<std::vector<StrokedView>*>(&strokes));
 }
 
+bool last_takes_away(const std::vector<StrokedView>& strokes) {
+  const Stroke* last = last_stroke(strokes);
+  return last && last->label == SeedLabel::kRest;
+}
+
 void set_size_steps(std::span<const int> steps, std::vector<StrokedView>* strokes) {
   std::vector<Stroke*> order;
   for (StrokedView& view : *strokes)

@@ -57,6 +57,8 @@ Stroke* first_stroke(std::vector<StrokedView>* strokes);
 Stroke* last_stroke(std::vector<StrokedView>* strokes);
 const Stroke* first_stroke(const std::vector<StrokedView>& strokes);
 const Stroke* last_stroke(const std::vector<StrokedView>& strokes);
+// True if that says what does not belong to the object: a larger part of it is more taken away.
+bool last_takes_away(const std::vector<StrokedView>& strokes);
 
 // Gives the strokes these sizes, in the order in which they are applied. Those beyond keep their own.
 void set_size_steps(std::span<const int> steps, std::vector<StrokedView>* strokes);

@@ -11,6 +11,9 @@ namespace splatcut {
 
 namespace {
 
+// Of the object in the frame's pixels; more of it: the picture crops the object.
+constexpr double kMuchOfFrame = 0.15;
+
 double share_of_frame(const Mask& mask) {
   std::size_t frame = 0, object = 0;
   for (int y = 0; y < mask.height(); ++y)
@@ -28,10 +31,10 @@ double width_of_object(const ViewReport& view) {
 }
 
 // Whether the view that was clicked in first shows the object large enough, and whole. A click from nearer
-// makes up for one from afar.
+// makes up for one from afar, and one in a view of the whole object for one that crops it.
 void add_doubts_of_first(std::span<const ViewReport> views, std::vector<std::string>* sentences) {
   // Set where cuts of an earlier program failed; how many do today: docs/study.md.
-  constexpr double kSmall = 0.08, kMuchOfFrame = 0.15;
+  constexpr double kSmall = 0.08;
   const double across = width_of_object(views.front());
   const bool from_nearer = std::ranges::any_of(views.subspan(1), [](const ViewReport& v) {
     return v.clicked && v.used && width_of_object(v) >= kSmall;
@@ -39,11 +42,16 @@ void add_doubts_of_first(std::span<const ViewReport> views, std::vector<std::str
   if (across > 0 && across < kSmall && !from_nearer)
     sentences->push_back(fmt::format(
         "the object is small in the first view, {:.0f} % of its width: come nearer", 100 * across));
-  if (share_of_frame(views.front().mask) > kMuchOfFrame)
-    sentences->push_back("the object runs out of the first view: step back");
+  const bool from_farther = std::ranges::any_of(
+      views.subspan(1), [](const ViewReport& v) { return v.clicked && v.used && shows_whole(v.mask); });
+  if (share_of_frame(views.front().mask) > kMuchOfFrame && !from_farther) sentences->emplace_back(kRunsOut);
 }
 
 }  // namespace
+
+bool shows_whole(const Mask& mask) {
+  return count(mask) > 0 && share_of_frame(mask) <= kMuchOfFrame;
+}
 
 bool unsure(const CutResult& result) {
   constexpr double kSure = 0.85;

@@ -49,7 +49,7 @@ TEST_CASE("sentences: of a click that changed the spot around it alone there is 
     result.sizes = sizes;
     return doubts_of(result).front() + wheel_hint(second, result, before, before);
   };
-  CHECK(said(0, 3) == "the last click changed the spot around it alone. The wheel takes more");
+  CHECK(said(0, 3) == "the last click changed the spot around it alone. The wheel takes more away");
   CHECK(said(2, 3) == "the last click changed the spot around it alone: scribble over all that is meant");
   CHECK(said(0, 0) == "the last click changed the spot around it alone: scribble over all that is meant");
   result.spot_alone = false;

@@ -56,6 +56,33 @@ TEST_CASE("clicks: at the ends of what a right click takes away, that is said") 
   }
 }
 
+TEST_CASE("clicks: sizes of a right click are worded as what is taken away") {
+  Artist artist(on_sample("mug", kOnMug));
+  artist.click_on_it();
+  const auto step = [&](const char* title, const std::string& computing) {
+    const auto& entries = artist.studio().history().entries();
+    const int steps = std::string(title).find("more") != std::string::npos || *title == 'L' ? 1 : -1;
+    artist.studio().apply(StepScale{steps});
+    CHECK(entries[artist.studio().history().cursor()].title == title);
+    CHECK_MESSAGE(artist.said() == computing, artist.said());
+    REQUIRE(artist.app.settle());
+  };
+  step("Larger part", "A larger part is being computed");
+  step("Smaller part", "A smaller part is being computed");
+  artist.app.click(artist.screen_of(kOnMug + glm::vec2(0, 55)), PointerButton::kRight);
+  REQUIRE(artist.app.settle());
+  const StrokeSizes* sizes = artist.studio().clicks().known_sizes();
+  REQUIRE(sizes);
+  REQUIRE(sizes->count() > 1);
+  if (sizes->size + 1 < sizes->count()) {
+    step("Takes more away", "A larger part to take away is being computed");
+    step("Takes less away", "A smaller part to take away is being computed");
+  } else {
+    step("Takes less away", "A smaller part to take away is being computed");
+    step("Takes more away", "A larger part to take away is being computed");
+  }
+}
+
 TEST_CASE("clicks: sizes are of the last click, also from another view and of a correction") {
   Artist artist(on_sample("mug", kOnMug));
   artist.click_on_it();

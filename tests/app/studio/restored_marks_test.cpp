@@ -6,20 +6,19 @@
 #include <utility>
 #include <vector>
 
-#include "hands.h"
+#include "reopened.h"
 
 using namespace splatcut;
 using namespace splatcut::testing;
 
 namespace {
 
-// What the thumbnails show and say, in no order: that depends on what was shown before.
+// What the thumbnails show and say, in their order.
 std::vector<std::pair<std::string, std::vector<Rgba8>>> marked_sides(HeadlessApp& app) {
   std::vector<std::pair<std::string, std::vector<Rgba8>>> all;
   for (const ViewCard& card : app.studio().cuts().run(app.studio().document().active)->views)
     all.emplace_back(card.doubt + card.legend + (card.looked_at ? " (looked at)" : ""),
                      std::vector<Rgba8>(card.picture->pixels().begin(), card.picture->pixels().end()));
-  std::ranges::sort(all);
   return all;
 }
 
@@ -66,13 +65,7 @@ TEST_CASE("restored marks: sides are in doubt as they were when the work was sav
   }
   const auto before = marked_sides(hands.app);
   const ScratchFolder folder("restored_marks");
-  const auto file = folder / "marks.splatcut.json";
-  hands.studio().apply(SaveWork{file});
-  REQUIRE(hands.app.settle());
-  HeadlessApp again(kHandsWidth, kHandsHeight);
-  again.open(file);
-  REQUIRE(again.settle());
-  const auto after = marked_sides(again);
+  const auto after = marked_sides(*reopened(hands, folder));
   CHECK(said_of(after) == said_of(before));
   CHECK(after == before);
 }

@@ -9,7 +9,7 @@
 #include "app/document/selection.h"
 #include "app/picture/cut_sentences.h"
 #include "app/ui/panels.h"
-#include "hands.h"
+#include "reopened.h"
 
 using namespace splatcut;
 using namespace splatcut::testing;
@@ -96,14 +96,9 @@ TEST_CASE("sides: pictures show the change that led to what undo, redo and saved
   CHECK(after(Undo{}) == less);
 
   const ScratchFolder folder("sides");
-  const auto file = folder / "sides.splatcut.json";
-  hands.studio().apply(SaveWork{file});
-  REQUIRE(hands.app.settle());
-  HeadlessApp again(kHandsWidth, kHandsHeight);
-  again.open(file);
-  REQUIRE(again.settle());
-  CHECK(cards(again).size() == less.size());
-  CHECK(of_stroke(again) == marks);
+  const auto again = reopened(hands, folder);
+  CHECK(cards(*again).size() == less.size());
+  CHECK(of_stroke(*again) == marks);
 }
 
 TEST_CASE("sides: in whatever steps the wheel came to a size, the pictures show the same change") {

@@ -10,6 +10,8 @@
 #include <nlohmann/json.hpp>
 
 #include "hands.h"
+#include "scene/cloud/strays.h"
+#include "segment/session/doubts.h"
 
 using namespace splatcut;
 using namespace splatcut::testing;
@@ -63,6 +65,34 @@ TEST_CASE("hands: where a click was from too far away, one comes nearer to what 
   const CutRun* run = hands.studio().cuts().run(hands.studio().document().active);
   CHECK(std::ranges::none_of(run->doubts, [](const auto& d) { return d.ends_with("come nearer"); }));
   CHECK(hands.said().find("first view") == std::string::npos);
+}
+
+TEST_CASE("hands: it is said to step back from what the picture crops until all of it was seen") {
+  Hands hands(false, with_kept_scenes(), kSample);
+  const glm::vec3 mug = hands.under(hands.app.screen_of(kOnMug));
+  hands.studio().camera().approach(mug, 0.25f);
+  REQUIRE(hands.app.settle());
+  const auto doubted = [&] {
+    const CutRun* run = hands.studio().cuts().run(hands.studio().document().active);
+    return run && std::ranges::find(run->doubts, kRunsOut) != run->doubts.end();
+  };
+  hands.app.click(hands.seen_at(mug));
+  REQUIRE(hands.app.settle());
+  for (int step = 0; step < 8 && !doubted(); ++step) {
+    hands.app.key(key::kPageUp);
+    REQUIRE(hands.app.settle());
+  }
+  REQUIRE(doubted());
+  hands.app.frames(5);
+  CHECK(doubted());
+  hands.app.key('F');  // all of it
+  REQUIRE(hands.app.settle());
+  hands.app.frames(2);
+  CHECK_FALSE(doubted());
+  hands.studio().apply(Undo{});
+  hands.studio().apply(Redo{});
+  REQUIRE(hands.app.settle());
+  CHECK_FALSE(doubted());
 }
 
 TEST_CASE("hands: one comes nearer to a stroke that begins outside of the picture, or is told why not") {
@@ -176,6 +206,19 @@ TEST_CASE("hands: the view turns around what was clicked") {
                                     0.5f * hands.app->interface().viewport().size()) > 40);
   hands.app.drag({{300, 120}, {360, 120}, {420, 120}}, PointerButton::kMiddle);
   CHECK(glm::distance(hands.seen_at(apple), before) < 3);
+}
+
+TEST_CASE("hands: the view turns around what a box took") {
+  Hands hands(false);
+  hands.app.key('4');
+  const glm::vec2 apple = hands.app.screen_of(kOnApple);
+  hands.app.drag({apple - glm::vec2(45, 45), apple, apple + glm::vec2(45, 45)});
+  REQUIRE(hands.selected() > 0);
+  const glm::vec3 middle = robust_bounds(hands.studio().viewport().object_points()).centre();
+  CHECK(glm::distance(hands.studio().camera().turned_around(), middle) < 1e-4f);
+  const glm::vec2 before = hands.seen_at(middle);
+  hands.app.drag({{300, 120}, {360, 120}, {420, 120}}, PointerButton::kMiddle);
+  CHECK(glm::distance(hands.seen_at(middle), before) < 3);
 }
 
 TEST_CASE("hands: while a flight key is held the wheel changes the speed, else it goes nearer") {

@@ -10,6 +10,44 @@
 using namespace splatcut;
 using namespace splatcut::testing;
 
+TEST_CASE(
+    "ui: one leaves without a question once all objects are exported as they are and the work is kept") {
+  const ScratchFolder folder("leave_exported");
+  std::filesystem::create_directories(folder / "state");
+  ApplicationOptions options = with_kept_scenes();
+  SUBCASE("kept by itself") {
+    options.studio.state_folder = folder / "state";
+  }
+  SUBCASE("not kept") {}
+  const bool kept = !options.studio.state_folder.empty();
+  Hands hands(true, options);
+  const auto asked = [&] {
+    hands.studio().run(Action::kQuit);
+    hands.app.frames(3);
+    const bool open = hands.app->interface().dialog_open();
+    if (open) hands.app.key(key::kEscape);
+    hands.app.frames(3);
+    return open;
+  };
+  const auto write = [&](ExportWhat what, const char* name) {
+    hands.studio().apply(Export{{what, SceneFormat::kSplat, folder / name}});
+    REQUIRE(hands.app.settle());
+  };
+  CHECK(asked());
+  write(ExportWhat::kScene, "all.splat");
+  CHECK(asked());  // the object is in no file
+  write(ExportWhat::kObject, "apple.splat");
+  hands.app.key('N', {.ctrl = true});
+  hands.app.click(hands.app.screen_of(kOnMug));
+  REQUIRE(hands.app.settle());
+  CHECK(asked());  // the mug is in none
+  CHECK_FALSE(hands.app->wants_to_close());
+  write(ExportWhat::kObject, "mug.splat");
+  CHECK(hands.studio().unsaved());
+  CHECK(asked() == !kept);
+  CHECK(hands.app->wants_to_close() == kept);
+}
+
 TEST_CASE("ui: what was exported last is dragged out of the window, or its path is copied by a click") {
   const ScratchFolder folder("drag_out");
   Hands hands(false);

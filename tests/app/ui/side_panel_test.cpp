@@ -142,6 +142,31 @@ TEST_CASE("ui: a thumbnail under the pointer is shown larger beside the panel, a
   CHECK(app.window("##Tooltip_00").size() == glm::vec2(0));
 }
 
+TEST_CASE(
+    "ui: what shows a thumbnail larger goes once it is clicked, and comes back where the pointer moves") {
+  HeadlessApp app(1360, 860);
+  app.interface_state().hint_wanted = false;
+  REQUIRE(cut_out_apple(app));
+  app.wait_for_message_to_go();
+  const auto tip = [&] { return app.window("##Tooltip_00").size(); };
+  const UiRect card = app.button("side 1");
+  const glm::vec2 middle = 0.5f * (card.min + card.max);
+  app.move(middle);
+  app.frames(3);
+  REQUIRE(tip() != glm::vec2(0));
+  const CameraPose before = app.studio().camera().goal();
+  app.click(middle);
+  app.frames(3);
+  CHECK(app.studio().camera().goal() != before);
+  CHECK(tip() == glm::vec2(0));
+  REQUIRE(app.settle());
+  app.frames(3);
+  CHECK(tip() == glm::vec2(0));
+  app.move(middle + glm::vec2(3, 0));
+  app.frames(3);
+  CHECK(tip() != glm::vec2(0));
+}
+
 TEST_CASE("ui: no row of the right panel moves as doubts, progress and times come and go") {
   for (const bool small : {false, true}) {
     CAPTURE(small);

@@ -338,4 +338,12 @@ TEST_CASE("doubts: another size, masks left out, and a cutout that most masks sp
   CHECK(of_first(0, 0, 40, 20).empty());  // a corner: 60 of 596 pixels of the frame
   CHECK(of_first(0, 0, 200, 20) ==
         std::vector<std::string>{"the object runs out of the first view: step back"});
+  // Said until a click was made in a view that shows all of it, and that counts.
+  views.assign(2, report.views.front());
+  views[1].clicked = true;
+  CHECK(said() == 1);  // it crops the object, too
+  views[1].mask = near;
+  CHECK(said() == 0);
+  views[1].used = false;
+  CHECK(said() == 1);
 }

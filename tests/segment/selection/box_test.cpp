@@ -7,6 +7,7 @@
 
 #include "four_stripes.h"
 #include "segment/masks/seeds.h"
+#include "segment/selection/box_by_colour.h"
 #include "segment/selection/box_meanings.h"
 
 using namespace splatcut;
@@ -186,6 +187,22 @@ TEST_CASE(
   CHECK(meant(stands_out, middle, 1) == by_parts);
   CHECK(meant(view_of({kBlue, kBlue, kBlue, kBlue}), middle) == by_parts);
   CHECK(meant(view_of({kRed, kRed, kRed, kBlue}), columns(0, 20)) == Labels{1, 1, 0, 0});
+}
+
+TEST_CASE("box: what a view knows of it by colour is not found again, of another box it is") {
+  const PartHierarchy parts = four_leaves();
+  LeafView view = stripes(parts);
+  view.colour = Image<Rgb8>(40, 10);
+  for (int y = 0; y < 10; ++y)
+    for (int x = 0; x < 40; ++x)
+      view.colour.at(x, y) = {static_cast<std::uint8_t>(x >= 10 && x < 30 ? 200 : 40),
+                              static_cast<std::uint8_t>((3 * x + 5 * y) % 7), 40};
+  const Labels found = leaves_by_colour(parts, view, columns(10, 30));
+  CHECK(found == Labels{0, 1, 1, 0});
+  view.box_px = columns(10, 30).points_px;
+  view.box_by_colour = {1, 0, 0, 1};
+  CHECK(leaves_by_colour(parts, view, columns(10, 30)) == Labels{1, 0, 0, 1});
+  CHECK(leaves_by_colour(parts, view, columns(9, 30)) == found);
 }
 
 // Single stripes are the likeliest of clicks by far. What a box holds, and what a click wants, no pair does.
