@@ -8,7 +8,6 @@
 #include <limits>
 #include <string>
 
-#include "app/document/export_choice.h"
 #include "app/document/words.h"
 #include "core/png_file.h"
 #include "hands_on_edges.h"
@@ -232,99 +231,6 @@ TEST_CASE("hands: the rest is exported without ghosts, or with all its rows") {
   REQUIRE(patch.why_not.empty());
   CHECK(hands.said().find(grouped(patch.changes.given_back.size()) + " of them invented to fill the hole") !=
         std::string::npos);
-}
-
-TEST_CASE("exports: what is said of them names objects whose edges stay, and promises no number of a hole") {
-  CleanReport good, bad, other;
-  good.cleaned = true;
-  bad.why_not = "no side shows it";
-  other.why_not = "3 Gaussians have no edges";
-  ExportReport one;
-  count_edges(bad, &one);
-  CHECK(edges_text(one) == ". Edges stay as they are: " + bad.why_not);
-  ExportReport several;
-  count_edges(good, &several, "Apple");
-  count_edges(bad, &several, "Mug");
-  CHECK(edges_text(several) == ", edges of some cleaned. Edges of Mug stay as they are: " + bad.why_not);
-  count_edges(other, &several, "Cup");
-  CHECK(edges_text(several) ==
-        ", edges of some cleaned. Edges of 2 objects stay as they are, Mug the first: " + bad.why_not);
-}
-
-TEST_CASE("exports: the dialog says what is written, and of what is moved that it is, not that it is kept") {
-  const FormatPlan plan{.bytes = 1, .kept = "Places and colours.", .lost = {}};
-  ExportChoice choice;
-  CHECK(kept_text(choice, plan) == "Kept: places and colours.");
-  CHECK(moved_text(choice.placement).empty());
-  CHECK(kept_text(choice, plan, "The hole is filled.") ==
-        "Kept, but for what is said below: places and colours.");
-  choice.placement.scale = 2;
-  CHECK(kept_text(choice, plan) == "Written: places and colours.");
-  CHECK(moved_text(choice.placement) == "It stands as chosen above, not as in the scene.");
-}
-
-TEST_CASE("exports: the dialog promises a number, and that nothing is lost, only where that holds") {
-  ExportChoice choice;
-  const FormatPlan plan{.bytes = 4'300'000, .kept = "all", .lost = {}};
-  EdgesKnown rows;
-  CHECK(amount_text(choice, 17466, rows, {}, plan) == "17,466 Gaussians, 4.3 MB");
-  CHECK(loss_text(choice, rows, {}, plan) == "Nothing is lost.");
-  EdgesKnown not_yet{.clean = true};
-  not_yet.count({}, "Apple");
-  CHECK(amount_text(choice, 17466, not_yet, {}, plan) == "At most 17,466 Gaussians, 4.3 MB");
-  CHECK(changes_text(choice, not_yet, {}) == "Clean edges leave out what the scene hides.");
-  CHECK(loss_text(choice, not_yet, {}, plan).empty());
-  EdgesKnown cleaned{.clean = true}, stays{.clean = true};
-  cleaned.count(CleanReport{.cleaned = true, .left = 214}, "Apple");
-  stays.count(CleanReport{.why_not = "3 Gaussians have no edges"}, "Mug");
-  CHECK(amount_text(choice, 46423, cleaned, {}, plan) == "46,209 Gaussians, 4.3 MB");
-  CHECK(changes_text(choice, cleaned, {}) == "Clean edges leave out 214 Gaussians that the scene hides.");
-  CHECK(edges_stay_text(cleaned).empty());
-  CHECK(amount_text(choice, 46423, stays, {}, plan) == "46,423 Gaussians, 4.3 MB");
-  CHECK(edges_stay_text(stays) == "Ticked, but edges of Mug cannot be cleaned: 3 Gaussians have no edges.");
-  CHECK(loss_text(choice, stays, {}, plan) == "Nothing is lost.");
-  choice.what = ExportWhat::kAllObjects;
-  EdgesKnown all = cleaned;
-  all.count(CleanReport{.why_not = "3 Gaussians have no edges"}, "Mug");
-  CHECK(edges_stay_text(all) == "Ticked, but edges of Mug cannot be cleaned: 3 Gaussians have no edges.");
-  CHECK(changes_text(choice, all, {}) == "Clean edges leave out 214 Gaussians that the scene hides.");
-  all.count(CleanReport{.why_not = "it is not seen"}, "Cup");
-  CHECK(edges_stay_text(all) ==
-        "Ticked, but edges of 2 objects (Mug the first) cannot be cleaned: 3 Gaussians have no edges.");
-  choice.what = ExportWhat::kRest;
-  for (const EdgesKnown& edges : {not_yet, cleaned}) {
-    CHECK(amount_text(choice, 139338, edges, {}, plan) == "About 139,338 Gaussians, about 4.3 MB");
-    CHECK(changes_text(choice, edges, {}) ==
-          "With clean edges, faint remains of the object go, too, and what was cut off its edges stays.");
-    CHECK(loss_text(choice, edges, {}, plan).empty());
-  }
-  CHECK(amount_text(choice, 139338, stays, {}, plan) == "139,338 Gaussians, 4.3 MB");
-  CHECK(loss_text(choice, stays, {}, plan) == "Nothing is lost.");
-  const HoleKnown coming{.fill = true};
-  CHECK(amount_text(choice, 139338, rows, coming, plan) == "About 139,338 Gaussians, about 4.3 MB");
-  CHECK(changes_text(choice, rows, coming) ==
-        "If the object touches a flat surface, that is continued into the hole: what lies there and at the "
-        "rim is replaced, and what fills it is invented.");
-  CHECK(loss_text(choice, rows, coming, plan).empty());
-  SceneWithout filled, refused;
-  filled.patch.changes.given_back.resize(1234, 0);
-  refused.patch.why_not = "there is no hole in what the object stands on";
-  const HoleKnown fills{true, std::make_shared<const SceneWithout>(filled)},
-      stays_open{true, std::make_shared<const SceneWithout>(refused)};
-  CHECK(changes_text(choice, rows, fills) ==
-        "The hole is filled by 1,234 Gaussians, all invented; what lies there and at the rim is replaced.");
-  CHECK(amount_text(choice, 139338, rows, fills, plan) == "About 140,572 Gaussians, about 4.3 MB");
-  CHECK(fills.why_not().empty());
-  CHECK(stays_open.why_not() == refused.patch.why_not);
-  CHECK(amount_text(choice, 139338, rows, stays_open, plan) == "139,338 Gaussians, 4.3 MB");
-  CHECK(changes_text(choice, rows, stays_open).empty());
-  choice.what = ExportWhat::kObject;  // which leaves its hole elsewhere
-  CHECK(changes_text(choice, rows, fills).empty());
-  choice.what = ExportWhat::kOneFile;
-  CHECK(loss_text(choice, rows, {}, plan) == "Nothing is lost.");
-  choice.format = SceneFormat::kSplat;  // it does not say which object a Gaussian is of
-  CHECK(loss_text(choice, rows, {}, plan).empty());
-  CHECK(numbers_text(choice) == "Which object a Gaussian belongs to is kept in a .ply alone.");
 }
 
 TEST_CASE("hands: harmonics of every degree turn with the object") {
