@@ -3,6 +3,9 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <memory>
+
 #include "segment/masks/seeds.h"
 #include "segment/session/doubts.h"
 
@@ -54,4 +57,33 @@ TEST_CASE("sentences: of a click that changed the spot around it alone there is 
   CHECK(said(0, 0) == "the last click changed the spot around it alone: scribble over all that is meant");
   result.spot_alone = false;
   CHECK(doubts_of(result).empty());
+}
+
+TEST_CASE("sentences: what another object keeps of a cut is said from a hundredth of the object on") {
+  // Of 1000 Gaussians the cut took `taken` of those that are the mug's own, and 200 others.
+  const auto said = [](std::size_t taken) {
+    Document document;
+    ObjectItem mug, plate;
+    mug.id = 1;
+    mug.name = "Mug";
+    plate.id = 2;
+    plate.name = "Plate";
+    std::vector<std::uint8_t> cut(1000, 0), of_mug(1000, 0), of_plate(1000, 0);
+    std::fill_n(of_mug.begin(), 100, 1);
+    std::fill_n(cut.begin(), taken, 1);
+    for (auto* flags : {&cut, &of_plate}) std::fill_n(flags->begin() + 200, 200, 1);
+    const auto flags_of = [](std::vector<std::uint8_t> flags) {
+      return std::make_shared<const std::vector<std::uint8_t>>(std::move(flags));
+    };
+    plate.cut = flags_of(cut);
+    plate.of_others = flags_of(of_mug);
+    document.objects = {mug, plate};
+    return shared_with(document, 2, [&](const ObjectItem& item) {
+      return item.id == 1 ? flags_of(of_mug) : flags_of(of_plate);
+    });
+  };
+  CHECK(said(0).empty());
+  CHECK(said(1).empty());
+  CHECK(said(2) ==
+        ". 2 Gaussians that Mug had before stay its own; the menu of Plate has a way to take them, too");
 }
