@@ -42,7 +42,7 @@ bool changed_little(const std::vector<std::uint8_t>& before, const std::vector<s
 
 std::string why_so_already(const CutRequest& request, const CutResult& result) {
   const bool adds = !last_takes_away(request.strokes);
-  return std::string(adds ? "that place belongs to it already. To take more, click what is missing"
+  return std::string(adds ? "that place belonged to it already. To take more, click what is missing"
                           : "that place does not belong to it as it is. To remove more, right-click a piece "
                             "of it") +
          (result.size + 1 < result.sizes ? adds ? ", or press + for a larger part" : ", or press +" : "");

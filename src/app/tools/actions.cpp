@@ -24,8 +24,7 @@ constexpr ToolAction kToolActions[] = {
 
 constexpr const char *kTools = "Tools", *kMovesCursor = "A cursor in the picture (Shift far, Alt near)",
                      *kPresses = "Click at that cursor, or close the polygon",
-                     *kLarger = "Larger part of what was clicked, or taken away",
-                     *kSmaller = "Smaller part of what was clicked, or taken away";
+                     *kLarger = "The last click takes more", *kSmaller = "The last click takes less";
 
 // Those of the tools stand in their rows.
 constexpr std::array kOwnBindings = {

@@ -63,7 +63,7 @@ void size_slider(UiContext& ui, const ObjectItem& object) {
   const auto sizes = static_cast<int>(known->count()),
              taken = static_cast<int>(ui.studio.clicks().size_wanted());
   const bool away = last_takes_away(object.views);
-  slider_label((away ? "Taken away  " : "Part  ") + size_beside(taken - static_cast<int>(known->likeliest)));
+  slider_label((away ? "Away  " : "Part  ") + size_beside(taken - static_cast<int>(known->likeliest)));
   ImGui::BeginDisabled(object.locked);
   const float from = ImGui::GetCursorScreenPos().x, width = ImGui::CalcItemWidth();
   int step = taken + 1;

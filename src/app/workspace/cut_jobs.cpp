@@ -382,7 +382,7 @@ void CutJobs::finish(const Order& order, CutRun run, const Flags& labels) {
       last_stroke(order.request.strokes)->label == SeedLabel::kRest && *before != *labels_now();
   const std::string but = !doubt.empty() ? doubt
                           : little && beside
-                              ? "that lay beside the place. To remove more, right-click where the "
+                              ? "that lay beside the clicked place. To remove more, right-click where the "
                                 "outline is red"
                           : little ? already
                                    : "";

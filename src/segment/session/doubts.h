@@ -25,7 +25,8 @@ std::vector<std::string> doubts(const CutResult& result,
 std::vector<std::string> doubts_of(const CutResult& result,
                                    double view_agreement = CutSettings{}.view_agreement);
 
-inline constexpr const char* kRunsOut = "the object runs out of the first view: step back";
+inline constexpr const char* kRunsOut =
+    "the object runs out of the first view: step back and look at all of it";
 
 // Whether a picture shows all of the object that the mask marks in it: it hardly meets the frame.
 bool shows_whole(const Mask& mask);

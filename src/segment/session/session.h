@@ -121,6 +121,8 @@ class Session {
   Place grown_about(const Neighbourhood& near, std::span<const std::uint8_t> labels) const;
   std::optional<Answered> place_of_strokes(const CutRequest& request, const CutSettings& settings,
                                            const Job& job);
+  Answered stepped(const CutRequest& request, const CutSettings& settings, Answered answered,
+                   const std::string& own_key, int step, const Box& must_hold, const Job& job);
   Answered place_after(const CutRequest& request, const CutSettings& settings, Answered there,
                        const Box& must_hold, const Job& job);
   std::optional<Answered> place_of(const CutRequest& request, const CutSettings& settings, const Job& job);

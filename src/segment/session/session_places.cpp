@@ -225,16 +225,42 @@ std::optional<Session::Answered> Session::place_of_strokes(const CutRequest& req
       if (job.cancelled()) return {};
       places_[own_key] = *there;
       if (i > 0 && strokes[i].stroke.size_step != 0) {
-        there->size_steps.back() = strokes[i].stroke.size_step;
-        there = place_after(first(i + 1), settings, *there, *must_hold, job);
+        there =
+            stepped(first(i + 1), settings, *there, own_key, strokes[i].stroke.size_step, *must_hold, job);
         if (job.cancelled()) return {};
         places_[key(i + 1)] = *there;
       }
     }
-    if (i == 0 && known <= 1)
-      there = Answered{there->place, request.choice, {strokes.front().stroke.size_step}};
+    if (i == 0 && known <= 1) {
+      const Answered own{there->place, request.choice, {0}};
+      there = stepped(request_of(std::span(strokes).first(1), request), settings, own,
+                      fmt::format("{} {}", key(1), request.choice), strokes.front().stroke.size_step,
+                      *must_hold, job);
+      if (job.cancelled()) return {};
+    }
   }
   return there;
+}
+
+// Where the last stroke's own size was answered, so many steps on, each from where the one before is
+// answered: a larger place has further sizes. own_key: of the own size.
+Session::Answered Session::stepped(const CutRequest& request, const CutSettings& settings, Answered answered,
+                                   const std::string& own_key, int step, const Box& must_hold,
+                                   const Job& job) {
+  const int towards = step < 0 ? -1 : 1;
+  for (int at = towards; at * towards <= step * towards && !job.cancelled(); at += towards) {
+    const std::string key = fmt::format("{} step {}", own_key, at);
+    const auto known = places_.find(key);
+    if (known != places_.end()) {
+      answered = known->second;
+      continue;
+    }
+    answered.size_steps.back() += towards;
+    answered = place_after(request, settings, answered, must_hold, job);
+    if (places_.size() >= kMostPlaces) places_.clear();
+    if (!job.cancelled()) places_[key] = answered;
+  }
+  return answered;
 }
 
 Session::Answered Session::place_after(const CutRequest& request, const CutSettings& settings,
@@ -294,6 +320,13 @@ std::optional<Session::Answered> Session::answered_in(const Place& larger, const
   return there;
 }
 
+// How many of the steps go beyond the sizes that there were to choose from. Those continue in a larger place,
+// which may have more.
+int steps_beyond(int step, const CutResult& taken) {
+  const int most = static_cast<int>(taken.size) - static_cast<int>(taken.likeliest_size);
+  return taken.sizes == 0 ? 0 : step - most;
+}
+
 // The step of the last stroke of `after` that changes most nearly what its step changes here.
 int Session::step_in(Answered there, const Answered& here, const CutRequest& before, const CutRequest& after,
                      const CutSettings& settings, const Job& job) {
@@ -324,7 +357,7 @@ int Session::step_in(Answered there, const Answered& here, const CutRequest& bef
     most = alike;
     best = step;
   }
-  return best;
+  return best + steps_beyond(here.size_steps[there.size_steps.size() - 1], taken);
 }
 
 // The meaning and size of the first stroke that are most like those taken here.
@@ -363,6 +396,7 @@ std::optional<Session::Answered> Session::first_answered_in(const Place& larger,
         look_at({larger, choice, {step}}, there->session.meant(request_for(step), settings, job));
     }
   }
+  if (best) best->size_steps.front() += steps_beyond(here.size_steps.front(), taken);
   return job.cancelled() ? std::nullopt : best;
 }
 

@@ -333,7 +333,7 @@ TEST_CASE("clicks: what is shown as said already gets a word") {
   };
   REQUIRE(artist.app.settle());
   CHECK(words("That is part of Object 1 already"));
-  CHECK(words("that place belongs to it already. To take more, click what is missing"));
+  CHECK(words("that place belonged to it already. To take more, click what is missing"));
   CHECK(artist.said().find("Gaussians") != std::string::npos);
   CHECK(iou_of(before, artist.labels()) > 0.99);
   artist.click(artist.beside(before, 25), PointerButton::kRight);

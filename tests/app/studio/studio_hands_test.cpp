@@ -202,7 +202,7 @@ TEST_CASE("hands: a click that changes nothing is a warning, with what to do") {
   REQUIRE(hands.selected() == before);
   const Message& last = hands.studio().messages().back();
   CHECK(last.kind == Message::Kind::kRefused);
-  CHECK_MESSAGE(last.text.find("as before: that place belongs to it already. To take more, click what") !=
+  CHECK_MESSAGE(last.text.find("as before: that place belonged to it already. To take more, click what") !=
                     std::string::npos,
                 last.text);
   CHECK(last.text.find("nearer") == std::string::npos);

@@ -336,8 +336,7 @@ TEST_CASE("doubts: another size, masks left out, and a cutout that most masks sp
   views[1].clicked = true;  // as far
   CHECK(said() == 1);
   CHECK(of_first(0, 0, 40, 20).empty());  // a corner: 60 of 596 pixels of the frame
-  CHECK(of_first(0, 0, 200, 20) ==
-        std::vector<std::string>{"the object runs out of the first view: step back"});
+  CHECK(of_first(0, 0, 200, 20) == std::vector<std::string>{kRunsOut});
   // Said until a click was made in a view that shows all of it, and that counts.
   views.assign(2, report.views.front());
   views[1].clicked = true;

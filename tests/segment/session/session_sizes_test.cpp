@@ -105,6 +105,30 @@ TEST_CASE("session: a place that grows finds the sizes of all strokes again, as 
   }
 }
 
+// The sizes that a small place knows end before those of a larger one, in which what touches its sides is
+// answered.
+TEST_CASE("session: each step of the wheel takes more, also where the place grows, until no size is left") {
+  const LabelledScene& scene = small_table().scene;
+  CutSettings settings = preset("default");
+  settings.parts_only = true;
+  for (const char* name : {"mug", "apple", "orange", "pot"}) {
+    CAPTURE(name);
+    Session session({.cloud = small_table().cloud, .most_gaussians = scene.cloud.size() / 5});
+    CutRequest request = click_on(name).request;
+    CutResult before = session.cut(request, settings);
+    const std::size_t looked_at = before.looked_at_gaussians;
+    int& step = last_stroke(&request.strokes)->size_step;
+    while (before.size + 1 < before.sizes) {
+      ++step;
+      CAPTURE(step);
+      CutResult next = session.cut(request, settings);
+      REQUIRE(std::ranges::count(next.labels, 1) > std::ranges::count(before.labels, 1));
+      before = std::move(next);
+    }
+    CHECK(before.looked_at_gaussians > looked_at);
+  }
+}
+
 TEST_CASE("session: sizes are of what was made last, whatever is applied last") {
   auto [request, settings] = click_on("mug");
   Session session = fresh_session();
