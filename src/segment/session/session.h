@@ -12,7 +12,8 @@
 //      that holds most of the scene is the scene. A first answer is shown while it grows. Other meanings of
 //      the first click, mostly one of which is the floor or a wall, make it grow when they are taken: they
 //      are offered where the likeliest is answered, and found again in the larger cell by their labels. So
-//      are other sizes of every stroke.
+//      are other sizes of every stroke, each a step from the one before, in the cell in which that is
+//      answered.
 // Strokes on the rest that hit nothing of the cell change nothing: there is no object there. Cuts from pixels
 // alone (the baselines) look at the whole scene. What a request asks for among some of the Gaussians is asked
 // of a session on these (session_among.h), as other files of a scene change no answer of before.
