@@ -27,7 +27,7 @@ bool Exports::have_all() const {
   return std::ranges::all_of(document.objects, [&](const ObjectItem& item) {
     const Flags now = ws_.labels.labels(document, item, ws_.gaussians());
     const auto then = exported_.find(item.id);
-    return count_flags(*now) == 0 || (then != exported_.end() && *then->second == *now);
+    return count_flags(*now) == 0 || (then != exported_.end() && *then->second.labels == *now);
   });
 }
 
@@ -52,8 +52,10 @@ void Exports::perform(const Export& c) {
         if (job.cancelled()) return;
         ws_.tasks.post([this, report, objects, path = request.path, scene] {
           written(path, *scene);
-          if (scene == ws_.scene)
-            for (const auto& [id, labels] : objects) exported_[id] = labels;
+          if (scene == ws_.scene) {
+            std::erase_if(exported_, [&](const auto& e) { return e.second.path == path; });  // overwritten
+            for (const auto& [id, labels] : objects) exported_[id] = {path, labels};
+          }
           ws_.say(report.hole_kept.empty() ? Message::Kind::kDone : Message::Kind::kRefused,
                   text_of(report, path));
         });

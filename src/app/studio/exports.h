@@ -35,12 +35,17 @@ class Exports {
   void begin_in(std::filesystem::path folder) { folder_ = std::move(folder); }
 
  private:
+  struct Exported {  // how an object was written last
+    std::filesystem::path path;
+    Flags labels;
+  };
+
   void written(const std::filesystem::path& path, const OpenedScene& of);
 
   Workspace& ws_;
   const Viewport& viewport_;
   std::filesystem::path last_, folder_;
-  std::map<ObjectId, Flags> exported_;  // labels with which objects were written last
+  std::map<ObjectId, Exported> exported_;
 };
 
 }  // namespace splatcut

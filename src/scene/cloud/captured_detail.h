@@ -26,7 +26,7 @@ struct Ball {
 
 float middle_sigma(const glm::vec3& scale);
 
-// Of every so manieth Gaussian that is not nearly transparent.
+// Of an even sample of the Gaussians, without those that are nearly transparent.
 CapturedDetail captured_detail(const GaussianCloud& cloud);
 
 // Its centre is the detail's median in each axis, and it holds half of the detail.

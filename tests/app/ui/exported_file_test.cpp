@@ -30,7 +30,7 @@ TEST_CASE(
     return open;
   };
   const auto write = [&](ExportWhat what, const char* name) {
-    hands.studio().apply(Export{{what, SceneFormat::kSplat, folder / name}});
+    hands.studio().apply(Export{{what, SceneFormat::kSplat, folder / name, true}});
     REQUIRE(hands.app.settle());
   };
   CHECK(asked());
@@ -42,7 +42,9 @@ TEST_CASE(
   REQUIRE(hands.app.settle());
   CHECK(asked());  // the mug is in none
   CHECK_FALSE(hands.app->wants_to_close());
-  write(ExportWhat::kObject, "mug.splat");
+  write(ExportWhat::kObject, "apple.splat");
+  CHECK(asked());  // the apple is in none any more
+  write(ExportWhat::kAllObjects, "both");
   CHECK(hands.studio().unsaved());
   CHECK(asked() == !kept);
   CHECK(hands.app->wants_to_close() == kept);
