@@ -29,6 +29,10 @@ const std::uint8_t* begin_of(std::string_view bytes) {
   return reinterpret_cast<const std::uint8_t*>(bytes.data());
 }
 
+bool is_png(std::string_view bytes) {
+  return bytes.starts_with("\x89PNG");
+}
+
 [[noreturn]] void refuse_damaged(const std::filesystem::path& path, std::string_view why) {
   throw Error(path.string(), fmt::format("is damaged ({})", why));
 }
@@ -61,24 +65,32 @@ std::string without_light(std::string_view png) {
   return kept += png.substr(at);
 }
 
-// One reading of a PNG in a format of libpng's. colours: of the palette, where indices are read.
+// Of a PNG, without its pixels.
+png_image described_png(const std::filesystem::path& path, std::string_view bytes) {
+  png_image png{};
+  png.version = PNG_IMAGE_VERSION;
+  if (!png_image_begin_read_from_memory(&png, bytes.data(), bytes.size())) refuse_damaged(path, png.message);
+  png_image_free(&png);
+  check_sides(path, png.width, png.height, bytes.size());
+  return png;
+}
+
+// One reading of a PNG in a format of libpng's; without alpha on black. colours: of the palette, where
+// indices are read.
 void read_png_as(const std::filesystem::path& path, std::string_view bytes, png_uint_32 format, void* pixels,
                  void* colours = nullptr) {
   png_image png{};
   png.version = PNG_IMAGE_VERSION;
   if (!png_image_begin_read_from_memory(&png, bytes.data(), bytes.size())) refuse_damaged(path, png.message);
   png.format = format;
-  if (!png_image_finish_read(&png, nullptr, pixels, 0, colours)) refuse_damaged(path, png.message);
+  const png_color black{0, 0, 0};
+  if (!png_image_finish_read(&png, &black, pixels, 0, colours)) refuse_damaged(path, png.message);
 }
 
 Picture read_any_png(const std::filesystem::path& path, std::string_view bytes) {
-  png_image png{};
-  png.version = PNG_IMAGE_VERSION;
-  if (!png_image_begin_read_from_memory(&png, bytes.data(), bytes.size())) refuse_damaged(path, png.message);
+  const png_image png = described_png(path, bytes);
   const png_uint_32 format = png.format;
   const auto width = static_cast<int>(png.width), height = static_cast<int>(png.height);
-  png_image_free(&png);
-  check_sides(path, png.width, png.height, bytes.size());
   Picture picture;
   picture.pixels = Image<Rgba8>(width, height);
   read_png_as(path, bytes, PNG_FORMAT_RGBA, picture.pixels.data());
@@ -92,6 +104,16 @@ Picture read_any_png(const std::filesystem::path& path, std::string_view bytes) 
     read_png_as(path, without_light(bytes), PNG_FORMAT_LINEAR_Y, picture.grey16.data());
   }
   return picture;
+}
+
+template <class Pixel>
+Image<Pixel> read_png(const std::filesystem::path& path, png_uint_32 format) {
+  const std::string bytes = text_of_file(path);
+  if (!is_png(bytes)) throw Error(path.string(), "is no PNG");
+  const png_image png = described_png(path, bytes);
+  Image<Pixel> image(static_cast<int>(png.width), static_cast<int>(png.height));
+  read_png_as(path, bytes, format, image.data());
+  return image;
 }
 
 struct JpegFailure {
@@ -189,14 +211,19 @@ Picture read_any_webp(const std::filesystem::path& path, std::string_view bytes)
   return picture;
 }
 
-bool is_png(std::string_view bytes) {
-  return bytes.starts_with("\x89PNG");
-}
 bool is_jpeg(std::string_view bytes) {
   return bytes.starts_with("\xff\xd8\xff");
 }
 
 }  // namespace
+
+Image<Rgb8> read_png_rgb(const std::filesystem::path& path) {
+  return read_png<Rgb8>(path, PNG_FORMAT_RGB);
+}
+
+Image<std::uint8_t> read_png_grey(const std::filesystem::path& path) {
+  return read_png<std::uint8_t>(path, PNG_FORMAT_GRAY);
+}
 
 Picture read_picture(const std::filesystem::path& path) {
   const std::string bytes = text_of_file(path);

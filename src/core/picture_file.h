@@ -21,6 +21,10 @@ struct Picture {
 // 32,768 pixels a side.
 Picture read_picture(const std::filesystem::path& path);
 
+// Any PNG as 8-bit RGB on black, or as 8-bit grey. Throw Error when it is missing, no PNG or damaged.
+Image<Rgb8> read_png_rgb(const std::filesystem::path& path);
+Image<std::uint8_t> read_png_grey(const std::filesystem::path& path);
+
 // Width and height of a PNG or JPEG without reading its pixels; none for other files.
 std::optional<glm::ivec2> picture_size(const std::filesystem::path& path);
 

@@ -8,7 +8,6 @@
 
 #include "core/atomic_file.h"
 #include "core/error.h"
-#include "core/mapped_file.h"
 
 namespace splatcut {
 
@@ -47,31 +46,6 @@ std::string bytes_of(const void* pixels, int width, int height, png_uint_32 form
   return bytes;
 }
 
-template <class Pixel>
-Image<Pixel> read_pixels(const std::filesystem::path& path, png_uint_32 format) {
-  constexpr png_uint_32 kMaxSide = 1 << 15;
-  constexpr std::uint64_t kMostPixelsPerByte = 8 * 1032;  // a bit each, as far as deflate can shrink them
-  const std::string bytes = text_of_file(path);
-  png_image png{};
-  png.version = PNG_IMAGE_VERSION;
-  if (!png_image_begin_read_from_memory(&png, bytes.data(), bytes.size()))
-    throw Error(path.string(), fmt::format("cannot be read as PNG ({})", png.message));
-  const bool large = png.width > kMaxSide || png.height > kMaxSide;
-  if (large || std::uint64_t{png.width} * png.height > kMostPixelsPerByte * bytes.size()) {
-    png_image_free(&png);
-    throw Error(path.string(), large ? fmt::format("the picture is {} x {} pixels, more than {} a side",
-                                                   png.width, png.height, kMaxSide)
-                                     : fmt::format("is damaged: {} x {} pixels in {} bytes", png.width,
-                                                   png.height, bytes.size()));
-  }
-  png.format = format;
-  Image<Pixel> image(static_cast<int>(png.width), static_cast<int>(png.height));
-  const png_color black{0, 0, 0};
-  if (!png_image_finish_read(&png, &black, image.data(), 0, nullptr))
-    throw Error(path.string(), fmt::format("is damaged ({})", png.message));
-  return image;
-}
-
 Rgb8 rgb8(const glm::vec3& colour) {
   const glm::vec3 v = glm::clamp(colour, 0.0f, 1.0f) * 255.0f + 0.5f;
   return {static_cast<std::uint8_t>(v.r), static_cast<std::uint8_t>(v.g), static_cast<std::uint8_t>(v.b)};
@@ -101,14 +75,6 @@ std::string png_bytes(const Image<Rgb8>& image) {
 
 std::string png_bytes(const Image<Rgba8>& image) {
   return bytes_of(image.data(), image.width(), image.height(), PNG_FORMAT_RGBA);
-}
-
-Image<Rgb8> read_png_rgb(const std::filesystem::path& path) {
-  return read_pixels<Rgb8>(path, PNG_FORMAT_RGB);
-}
-
-Image<std::uint8_t> read_png_grey(const std::filesystem::path& path) {
-  return read_pixels<std::uint8_t>(path, PNG_FORMAT_GRAY);
 }
 
 Image<Rgb8> rgb8_from_linear(const Image<glm::vec3>& colour) {

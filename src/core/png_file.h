@@ -1,4 +1,4 @@
-// PNG in and out. Files appear whole or not at all.
+// PNG out; in: picture_file.h. Files appear whole or not at all.
 #pragma once
 
 #include <filesystem>
@@ -18,10 +18,6 @@ void write_png(const std::filesystem::path& path, const Image<std::uint16_t>& gr
 // The same bytes in memory.
 std::string png_bytes(const Image<Rgb8>& image);
 std::string png_bytes(const Image<Rgba8>& image);
-
-// Any PNG as 8-bit RGB, or as 8-bit grey. Throw Error when it is missing, no PNG or damaged.
-Image<Rgb8> read_png_rgb(const std::filesystem::path& path);
-Image<std::uint8_t> read_png_grey(const std::filesystem::path& path);
 
 // Clamps to [0, 1] and rounds.
 Image<Rgb8> rgb8_from_linear(const Image<glm::vec3>& colour);

@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "core/json_file.h"
 #include "core/picture_difference.h"
+#include "core/picture_file.h"
 #include "core/png_file.h"
 
 namespace splatcut {

@@ -56,6 +56,20 @@ bool is_made_on(const Flags& flags, std::span<const std::int32_t> hits) {
   return 2 * on > std::ssize(hits);
 }
 
+// What those of the other objects have that are asked for, but for parts of this one and wholes of it.
+template <class IsAsked>
+Flags had_by(const Document& document, const ObjectItem& object, std::size_t gaussians, IsAsked is_asked) {
+  std::vector<std::uint8_t> had(gaussians, 0);
+  for (const ObjectItem& other : document.objects) {
+    if (other.id == object.id || !is_asked(other) || is_part_of(document, object, other.id) ||
+        is_part_of(document, other, object.id))
+      continue;
+    const std::vector<std::uint8_t> labels = labels_of(document, other, gaussians);
+    for (std::size_t g = 0; g < gaussians; ++g) had[g] |= labels[g];
+  }
+  return count_flags(had) > 0 ? make_flags(std::move(had)) : nullptr;
+}
+
 }  // namespace
 
 Flags make_flags(std::vector<std::uint8_t> values) {
@@ -143,23 +157,47 @@ bool is_part_of(const Document& document, const ObjectItem& part, ObjectId whole
 
 Flags had_by_others(const Document& document, const ObjectItem& object, std::size_t gaussians,
                     ObjectId only) {
-  std::vector<std::uint8_t> had(gaussians, 0);
-  for (const ObjectItem& other : document.objects) {
-    if (other.id == object.id || is_part_of(document, object, other.id) ||
-        is_part_of(document, other, object.id))
-      continue;
-    if (only != 0 && other.id != only) continue;
-    const std::vector<std::uint8_t> labels = labels_of(document, other, gaussians);
-    for (std::size_t g = 0; g < gaussians; ++g) had[g] |= labels[g];
-  }
-  return count_flags(had) > 0 ? make_flags(std::move(had)) : nullptr;
+  return had_by(document, object, gaussians,
+                [&](const ObjectItem& other) { return only == 0 || other.id == only; });
 }
 
-bool is_without_others(const ObjectItem& object) {
+Flags kept_by_locked(const Document& document, const ObjectItem& object, std::size_t gaussians) {
+  const Flags had = had_by(document, object, gaussians, [](const ObjectItem& o) { return o.locked; });
+  if (!had) return nullptr;
+  const std::vector<std::uint8_t> own = labels_of(document, object, gaussians);
+  std::vector<std::uint8_t> kept = *had;
+  for (std::size_t g = 0; g < gaussians; ++g) kept[g] = kept[g] && !own[g];
+  return count_flags(kept) > 0 ? make_flags(std::move(kept)) : nullptr;
+}
+
+void leave_to_locked(const Document& document, ObjectItem* object, std::size_t gaussians) {
+  const Flags kept = kept_by_locked(document, *object, gaussians);
+  if (!kept) return;
+  std::vector<std::uint8_t> left = *kept;
+  for (std::size_t g = 0; object->of_others && g < gaussians; ++g) left[g] |= (*object->of_others)[g];
+  if (!object->of_others || left != *object->of_others) object->of_others = make_flags(std::move(left));
+}
+
+const ObjectItem* locked_under(const Document& document, const ObjectItem& object,
+                               std::span<const std::int32_t> hits, std::size_t gaussians) {
+  const Flags kept = kept_by_locked(document, object, gaussians);
+  if (!is_made_on(kept, hits)) return nullptr;
+  const auto has_most = [&](const ObjectItem& other) {
+    return other.locked && is_made_on(had_by_others(document, object, gaussians, other.id), hits);
+  };
+  const auto found = std::ranges::find_if(document.objects, has_most);
+  return found != document.objects.end() ? &*found : nullptr;
+}
+
+bool is_without_others(const Document& document, const ObjectItem& object, std::size_t gaussians) {
   if (!object.of_others) return false;
   for (std::size_t g = 0; object.hand && g < object.hand->size(); ++g)
     if ((*object.hand)[g] == kHandObject && (*object.of_others)[g]) return false;
-  return true;
+  const Flags kept = kept_by_locked(document, object, gaussians);
+  if (!kept) return true;
+  for (std::size_t g = 0; g < gaussians; ++g)
+    if ((*object.of_others)[g] && !(*kept)[g]) return true;
+  return false;
 }
 
 void set_of_others(ObjectItem* object, Flags of_others) {
@@ -171,6 +209,10 @@ void set_of_others(ObjectItem* object, Flags of_others) {
     if (hand[g] == kHandObject || hand[g] == kHandLeft)
       hand[g] = object->of_others && (*object->of_others)[g] ? kHandLeft : kHandObject;
   if (hand != *object->hand) object->hand = make_flags(std::move(hand));
+}
+
+void share_again(const Document& document, ObjectItem* object, std::size_t gaussians) {
+  set_of_others(object, kept_by_locked(document, *object, gaussians));
 }
 
 void leave_to_others(const Document& document, ObjectItem* object, std::size_t gaussians) {
@@ -205,13 +247,18 @@ ObjectItem left_what_came(const Document& document, const ObjectItem& object, st
                           const HitsOfStrokes& hits, std::size_t gaussians) {
   ObjectItem out = object;
   std::erase_if(out.leaves_also, [&](ObjectId id) { return std::ranges::find(came, id) != came.end(); });
-  std::vector<Flags> had;
+  std::vector<Flags> had, may_be_shared;
   for (const ObjectId id : came)
-    if (Flags of_one = had_by_others(document, object, gaussians, id)) had.push_back(std::move(of_one));
+    if (Flags of_one = had_by_others(document, object, gaussians, id)) {
+      if (!document.find(id)->locked) may_be_shared.push_back(of_one);
+      had.push_back(std::move(of_one));
+    }
   if (had.empty()) return out;
   for (const std::vector<std::int32_t>& of_stroke : hits())
-    if (std::ranges::any_of(had, [&](const Flags& of_one) { return is_made_on(of_one, of_stroke); })) {
+    if (std::ranges::any_of(may_be_shared,
+                            [&](const Flags& of_one) { return is_made_on(of_one, of_stroke); })) {
       set_of_others(&out, nullptr);
+      leave_to_locked(document, &out, gaussians);
       return out;
     }
   std::vector<std::uint8_t> all(gaussians, 0);  // hand marks are younger than that, and count

@@ -102,12 +102,23 @@ bool is_part_of(const Document& document, const ObjectItem& part, ObjectId whole
 Flags had_by_others(const Document& document, const ObjectItem& object, std::size_t gaussians,
                     ObjectId only = 0);
 
-// Whether the object leaves to others all that it is to leave, also what a hand took since.
-bool is_without_others(const ObjectItem& object);
+// What locked ones of these have and the object has not: nothing gives it that; null: nothing.
+Flags kept_by_locked(const Document& document, const ObjectItem& object, std::size_t gaussians);
+// Leaves that to them, too.
+void leave_to_locked(const Document& document, ObjectItem* object, std::size_t gaussians);
+// The locked object that keeps more than half of what a stroke hits from this one; null: none does.
+const ObjectItem* locked_under(const Document& document, const ObjectItem& object,
+                               std::span<const std::int32_t> hits, std::size_t gaussians);
+
+// Whether the object leaves to others all that it is to leave, also what a hand took since, and not to
+// locked ones alone.
+bool is_without_others(const Document& document, const ObjectItem& object, std::size_t gaussians);
 
 // Sets ObjectItem::of_others, with nothing on its way. What hands took of that is left to the others, too;
 // what hands had taken of what was left before is the object's again.
 void set_of_others(ObjectItem* object, Flags of_others);
+// Sets it to nothing but what locked ones keep.
+void share_again(const Document& document, ObjectItem* object, std::size_t gaussians);
 // Sets it to all that other objects have, and have on their way.
 void leave_to_others(const Document& document, ObjectItem* object, std::size_t gaussians);
 // The object with what the objects `came`, of its `leaves_also`, have now. hits: asked for the Gaussians that

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "app/document/edited_object.h"
 #include "app/document/words.h"
@@ -43,15 +44,20 @@ const char* first_stroke_word(const ObjectItem& object) {
 // object was made on.
 void settle_with_others(Document* document, ObjectItem* object, std::span<const std::int32_t> hits,
                         bool first, const EditContext& context) {
+  const std::size_t n = context.cloud.size();
+  if (const ObjectItem* kept = locked_under(*document, *object, hits, n))
+    throw Error(kept->name, "is locked, and no other object takes what it has",
+                "Unlock it in the objects panel");
   if (first) {
     const ObjectItem* undone = context.undone ? context.undone->find(object->id) : nullptr;
     if (undone) object->colour = undone->colour;  // it is begun again
     if (!hits.empty())                            // of a box the one in its middle
       stand_out(document, object->id,
                 base_colour(context.cloud, static_cast<std::size_t>(hits[hits.size() / 2])));
-    leave_to_others(*document, object, context.cloud.size());
+    leave_to_others(*document, object, n);
   }
-  if (means_what_is_left(*document, *object, hits, context.cloud.size())) set_of_others(object, nullptr);
+  if (means_what_is_left(*document, *object, hits, n)) share_again(*document, object, n);
+  leave_to_locked(*document, object, n);
   if (reaches_beyond(*object, hits)) object->among = nullptr;
 }
 
@@ -84,6 +90,15 @@ Selection inverted(const Selection& selection) {
   return out;
 }
 
+// Takes out of what an edit makes of an object what locked ones keep, and says so; empty: they keep nothing.
+std::string leave_locked(const Document& document, const ObjectItem& object, Selection* after) {
+  const Flags kept = kept_by_locked(document, object, after->size());
+  std::size_t left = 0;
+  for (std::size_t g = 0; kept && g < after->size(); ++g)
+    if ((*kept)[g] && std::exchange((*after)[g], std::uint8_t{0})) ++left;
+  return left > 0 ? fmt::format(". What is locked keeps {}", gaussians_text(left)) : "";
+}
+
 }  // namespace
 
 bool is_begun_by_next(const Document& document, const ObjectItem& object, const EditContext& context) {
@@ -110,7 +125,9 @@ bool shows(const Backdrop& backdrop, const Document& document, const ViewState& 
 bool asks_what_is_hit(const Document& document, SeedLabel label, const EditContext& context) {
   const ObjectItem* object = document.active_object();
   if (label == SeedLabel::kRest) return object && object->among;
-  return !object || object->among || object->of_others || is_begun_by_next(document, *object, context);
+  return !object || object->among || object->of_others ||
+         std::ranges::any_of(document.objects, &ObjectItem::locked) ||
+         is_begun_by_next(document, *object, context);
 }
 
 std::string edit(Document* document, const AddStroke& command, const EditContext& context) {
@@ -157,8 +174,9 @@ Flags changed_by(const Document& document, const AddStroke& stroke, std::vector<
   ObjectItem& object = target(&stroked_document);
   if (stroke.stroke.label == SeedLabel::kObject) {
     if (object.of_others != left) set_of_others(&object, left);
-    if (means_what_is_left(document, object, stroke.hits, context.cloud.size()))
-      set_of_others(&object, nullptr);
+    const std::size_t n = context.cloud.size();
+    if (locked_under(document, object, stroke.hits, n)) after = before;
+    if (means_what_is_left(document, object, stroke.hits, n)) share_again(document, &object, n);
   }
   std::vector<std::uint8_t> change = with_cut(document, std::move(before));
   const std::vector<std::uint8_t> then = with_cut(std::move(stroked_document), std::move(after));
@@ -253,7 +271,8 @@ std::string edit_selection(Document* document, const Selection& region, SetOpera
                            const EditContext& context) {
   ObjectItem& object = target(document);
   const std::vector<std::uint8_t> before = labels(*document, object, context);
-  const Selection after = combined(before, region, operation);
+  Selection after = combined(before, region, operation);
+  const std::string kept = leave_locked(*document, object, &after);
   std::size_t changed = 0;
   for (std::size_t g = 0; g < after.size(); ++g) changed += (before[g] != 0) != (after[g] != 0);
   Selection taken_out = region;
@@ -263,7 +282,7 @@ std::string edit_selection(Document* document, const Selection& region, SetOpera
   const char* what = operation == SetOperation::kAdd      ? "added"
                      : operation == SetOperation::kRemove ? "removed"
                                                           : "changed";
-  return fmt::format("{} {}. {}", gaussians_text(changed), what, counted(*document, object, context));
+  return fmt::format("{} {}. {}{}", gaussians_text(changed), what, counted(*document, object, context), kept);
 }
 
 std::string edit_by_shape(Document* document, const Selection& region, SetOperation operation,
@@ -273,13 +292,15 @@ std::string edit_by_shape(Document* document, const Selection& region, SetOperat
   const std::size_t n = region.size();
   const bool first = is_begun_by_next(*document, object, context);
   const std::vector<std::uint8_t> before = labels(*document, object, context);
+  const Flags locked = kept_by_locked(*document, object, n);
   std::vector<std::int32_t> added;
   for (std::size_t g = 0; g < n; ++g)
-    if (region[g] && !before[g] && !(document->deleted && (*document->deleted)[g]))
+    if (region[g] && !(locked && (*locked)[g]) && !before[g] &&
+        !(document->deleted && (*document->deleted)[g]))
       added.push_back(static_cast<std::int32_t>(g));
   if (first) leave_to_others(*document, &object, n);
   if (means_what_is_left(*document, object, added, n)) {
-    if (first) set_of_others(&object, nullptr);
+    if (first) share_again(*document, &object, n);
     return edit_selection(document, region, operation, context);
   }
   Selection left(n, 0), taken = region;
@@ -349,25 +370,30 @@ std::string edit(Document* document, const EditSelection& command, const EditCon
           combined(before, floaters(context.cloud, required_graph(context), before), SetOperation::kRemove);
       break;
   }
+  const std::string kept = leave_locked(*document, object, &after);
   const bool none = command.edit == SelectionEdit::kNone;
   set_labels(document, &object, after, none ? Selection(n, 1) : Selection());
   if (command.edit == SelectionEdit::kAll)
-    return fmt::format("All {} are selected. Ctrl+Z takes it back",
-                       gaussians_text(count_flags(labels(*document, object, context))));
-  return counted(*document, object, context);
+    return fmt::format("{}{} are selected{}. Ctrl+Z takes it back", kept.empty() ? "All " : "",
+                       gaussians_text(count_flags(labels(*document, object, context))), kept);
+  return counted(*document, object, context) + kept;
 }
 
 std::string edit(Document* document, const DeleteSelected&, const EditContext& context) {
   if (!document->active_object()) throw Error("", "No object is chosen");
   const ObjectItem& object = unlocked(document, document->active);
-  const Selection selected = labels(*document, object, context);
+  Selection selected = labels(*document, object, context);
+  const std::size_t all = count_flags(selected);
+  for (const ObjectItem& other : document->objects)
+    if (other.locked) selected = combined(selected, labels(*document, other, context), SetOperation::kRemove);
   const std::size_t count = count_flags(selected);
+  if (all > 0 && count == 0) throw Error(object.name, "shares all it has with what is locked");
   if (count == 0) throw Error(object.name, "holds no Gaussians: there is nothing to delete");
   Selection deleted(context.cloud.size(), 0);
   if (document->deleted) deleted = *document->deleted;
   document->deleted = make_flags(combined(deleted, selected, SetOperation::kAdd));
-  return fmt::format("{} Gaussians of {} deleted from the scene (the file stays as it is)", grouped(count),
-                     object.name);
+  return fmt::format("{} Gaussians of {} deleted from the scene (the file stays as it is){}", grouped(count),
+                     object.name, all > count ? ". What is locked keeps " + gaussians_text(all - count) : "");
 }
 
 std::string edit(Document* document, const RestoreDeleted&, const EditContext&) {

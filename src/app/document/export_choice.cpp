@@ -27,10 +27,16 @@ bool changes_edges(const EdgesKnown& edges) {
 std::string edges_change_text(const ExportChoice& choice, const EdgesKnown& edges) {
   if (!changes_edges(edges)) return {};
   if (choice.what == ExportWhat::kRest)
-    return "With clean edges, faint remains of the object go, too, and what was cut off its edges stays.";
-  if (edges.unknown > 0) return "Clean edges leave out what the scene hides.";
-  if (edges.left_out == 0) return "Clean edges change some Gaussians, and leave out none.";
-  return fmt::format("Clean edges leave out {} that the scene hides.", gaussians_text(edges.left_out));
+    return "Clean edges leave out faint remains of the object, too; what they trim off the object stays "
+           "here.";
+  const std::string gone =
+      edges.unknown > 0    ? "leave out what only shows, as ragged bits, once the object stands alone"
+      : edges.left_out > 0 ? fmt::format(
+                                 "leave out {} that only show, as ragged bits, once the object "
+                                 "stands alone",
+                                 gaussians_text(edges.left_out))
+                           : "leave out nothing";
+  return fmt::format("Clean edges {}, and trim or recolour others. Untick them to write all as it is.", gone);
 }
 
 }  // namespace
@@ -112,7 +118,7 @@ std::string kept_text(const ExportChoice& choice, const FormatPlan& plan, const 
   if (!what.empty()) what[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(what[0])));
   return (choice.placement != ExportPlacement{} ? "Written: "
           : changes.empty()                     ? "Kept: "
-                                                : "Kept, but for what is said below: ") +
+                                                : "Written, with the changes named below: ") +
          what;
 }
 
@@ -131,7 +137,7 @@ std::string edges_stay_text(const EdgesKnown& edges) {
   if (!edges.clean || edges.kept == 0) return {};
   const std::string whose =
       edges.kept == 1 ? edges.kept_of : fmt::format("{} objects ({} the first)", edges.kept, edges.kept_of);
-  return fmt::format("Ticked, but edges of {} cannot be cleaned: {}.", whose, edges.why_kept);
+  return fmt::format("Clean edges change nothing of {}: {}.", whose, edges.why_kept);
 }
 
 std::string changes_text(const ExportChoice& choice, const EdgesKnown& edges, const HoleKnown& hole) {

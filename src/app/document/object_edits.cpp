@@ -70,9 +70,15 @@ std::string edit(Document* document, const ShowObject& command, const EditContex
   return fmt::format("The tint of {} is {}", object.name, command.visible ? "shown" : "hidden");
 }
 
-std::string edit(Document* document, const LockObject& command, const EditContext&) {
+std::string edit(Document* document, const LockObject& command, const EditContext& context) {
   ObjectItem& object = required(document, command.object);
   object.locked = command.locked;
+  for (ObjectItem& other : document->objects) {
+    if (!command.locked || other.id == object.id) continue;
+    leave_to_locked(*document, &other, context.cloud.size());
+    const bool known = std::ranges::find(other.leaves_also, object.id) != other.leaves_also.end();
+    if (is_stale(*document, object) && !known) other.leaves_also.push_back(object.id);
+  }
   return object.name + (command.locked ? " locked" : " unlocked");
 }
 
@@ -153,7 +159,10 @@ std::string edit(Document* document, const SeparateObject& command, const EditCo
 
 std::string edit(Document* document, const LeaveToOthers& command, const EditContext& context) {
   ObjectItem& object = unlocked(document, command.object);
-  set_of_others(&object, command.leaves ? had_by_others(*document, object, context.cloud.size()) : nullptr);
+  if (command.leaves)
+    set_of_others(&object, had_by_others(*document, object, context.cloud.size()));
+  else
+    share_again(*document, &object, context.cloud.size());
   if (command.leaves && !object.of_others) return "The other objects have nothing: " + object.name + " stays";
   return fmt::format("{}: {}", command.leaves ? "Now without the other objects" : "Now with what others have",
                      counted(*document, object, context));

@@ -13,7 +13,7 @@
 #include "app/lab/benchmark_folders.h"
 #include "app/lab/scribble_picture.h"
 #include "core/error.h"
-#include "core/png_file.h"
+#include "core/picture_file.h"
 #include "scene/camera/camera_file.h"
 #include "scene/camera/camera_names.h"
 #include "scene/camera/common_up.h"

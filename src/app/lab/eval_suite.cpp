@@ -9,7 +9,7 @@
 #include "core/error.h"
 #include "core/json_file.h"
 #include "core/mapped_file.h"
-#include "core/png_file.h"
+#include "core/picture_file.h"
 #include "scene/camera/camera_file.h"
 #include "scene/camera/camera_names.h"
 #include "scene/camera/common_up.h"

@@ -48,13 +48,19 @@ std::string why_so_already(const CutRequest& request, const CutResult& result) {
          (result.size + 1 < result.sizes ? adds ? ", or press + for a larger part" : ", or press +" : "");
 }
 
-std::string why_no_larger(bool first_stroke, std::size_t taken, std::size_t all) {
+std::string why_one_size(int steps, bool takes_away) {
+  if (takes_away)
+    return "The click takes this away, no more and no less: right-click what is left, click what is missing";
+  return steps > 0 ? "No larger part holds this place: click beside it, or drag a box (4) around the thing"
+                   : "No smaller part was found in it: right-click what does not belong to it";
+}
+
+std::string why_no_larger(std::size_t taken, std::size_t all) {
   constexpr double kNearlyAll = 0.95;
   const bool whole = static_cast<double>(taken) > kNearlyAll * static_cast<double>(all);
   return std::string("This is the largest size") +
-         (whole          ? ": nearly the whole scene is taken. Page Down takes less"
-          : first_stroke ? "; a box (4) may find more"
-                         : "");
+         (whole ? ": nearly the whole scene is taken. Page Down takes less"
+                : ": no larger part holds this place. Click beside it, or drag a box (4) around the thing");
 }
 
 std::string leap_of_size(std::size_t was, std::size_t is) {

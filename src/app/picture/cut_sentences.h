@@ -26,7 +26,9 @@ std::string why_so_already(const CutRequest& request, const CutResult& result);
 
 // That there is no larger size, and what may take more: nothing where nearly all is taken. taken, all: of the
 // scene's Gaussians.
-std::string why_no_larger(bool first_stroke, std::size_t taken, std::size_t all);
+std::string why_no_larger(std::size_t taken, std::size_t all);
+// The same where it has one size alone; steps: which way was asked for.
+std::string why_one_size(int steps, bool takes_away);
 
 // Of a step to the next size, from so many Gaussians to so many: that it is a leap, and what finds something
 // between; empty: it is none.

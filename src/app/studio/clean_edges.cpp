@@ -11,7 +11,7 @@ namespace {
 
 // Of an object that Clean leaves as it is: why, and what its button does then.
 std::string uncleaned_text(const std::string& name, const std::string& why_not) {
-  return fmt::format("Clean cuts nothing off {}: {}. With the button on or off it looks and exports the same",
+  return fmt::format("Clean edges change nothing of {}: {}. It looks and exports the same with and without",
                      name, why_not);
 }
 

@@ -176,14 +176,13 @@ std::string Clicks::why_not_step(int steps) const {
                                           : "The last click has no other size: scribble over what is meant";
   }
   const std::size_t size = size_wanted(), last = known->count() - 1;
-  if (last == 0) return "The click means one size alone";
+  if (last == 0) return why_one_size(steps, last_takes_away(object->views));
   if (last_takes_away(object->views)) {
-    if (steps > 0 && size >= last) return "The click takes no more away than this";
-    if (steps < 0 && size == 0) return "The click takes no less away than this";
+    if (steps > 0 && size >= last) return "The click takes no more away than this: right-click what is left";
+    if (steps < 0 && size == 0) return "The click takes no less away than this: click what is missing";
   }
-  if (steps > 0 && size >= last)
-    return why_no_larger(stroke_count(*object) == 1, ws_.gaussians_of(object->id), ws_.gaussians());
-  if (steps < 0 && size == 0) return "This is the smallest size";
+  if (steps > 0 && size >= last) return why_no_larger(ws_.gaussians_of(object->id), ws_.gaussians());
+  if (steps < 0 && size == 0) return "This is the smallest size: right-click what does not belong to it";
   return {};
 }
 
@@ -433,9 +432,24 @@ bool Clicks::chooses_by(int key) const {
   return offer() || (key > '1' && offer_comes());
 }
 
+bool Clicks::lacks_meaning(int key) const {
+  const ObjectItem* object = object_of_offers();
+  return key > '1' && key < '1' + kMostMeanings && object && object->cut && !object->cut_kept &&
+         ws_.gaussians_of(object->id) > 0 && !offered() && !offer_comes() &&
+         ws_.view.display == DisplayMode::kWhole && !ws_.view.heat;
+}
+
 std::string Clicks::why_not_choose(int choice) const {
   const ClickMeanings* offered = offer();
-  if (!offered) return "The click has no other meaning. The wheel right after it takes more or less";
+  if (!offered) {
+    const Action action = action_for('1' + choice, {});
+    const ObjectItem* object = ws_.document().active_object();
+    const Stroke* last = object ? last_stroke(object->views) : nullptr;
+    const bool again = *tool_of(action) != ws_.view.tool;
+    return fmt::format("This {} has no other meaning; the wheel right after it takes more or less{}",
+                       last && last->is_box() ? "box" : "click",
+                       again ? fmt::format(". Press {} again for {}", choice + 1, name_of(action)) : "");
+  }
   if (choice < std::ssize(offered->outlines)) return {};
   return "Two meanings are offered: keys 1 and 2. After Esc, 3 is a tool again";
 }

@@ -32,6 +32,9 @@ class Clicks {
   std::string why_no_meanings() const;
   // True if the key, without others, is for those meanings, not for a tool, also where they are to come.
   bool chooses_by(int key) const;
+  // True if it is pressed for one that the click does not have: no tool was chosen since, and it was not
+  // said.
+  bool lacks_meaning(int key) const;
   std::string why_not_choose(int choice) const;  // refusal if no such meaning is offered; else empty
   bool decline_offer();  // withdraws the offer, also one that is hidden; returns false if none was shown
   // Sizes that the active object's last click can have; null: they are not known, or it has none.

@@ -203,7 +203,8 @@ bool Studio::hold_for_cut(Action action) {
   Held& held = held_for(*object);
   (frames ? held.frame : held.display) = action;
   if (frames) held.seen_from = camera().goal();
-  ws_.say(Message::Kind::kInfo, fmt::format("{}: as soon as {} is computed", name_of(action), object->name));
+  ws_.say(Message::Kind::kInfo,
+          fmt::format("{}: as soon as {} is computed", short_name_of(action), object->name));
   return true;
 }
 
@@ -211,7 +212,9 @@ bool Studio::hold_for_cut(Action action) {
 void Studio::choose_meaning(int choice) {
   if (!clicks_.offer_comes()) {
     const std::string reason = clicks_.why_not_choose(choice);
-    return reason.empty() ? apply(ChooseMeaning{choice}) : ws_.say(Message::Kind::kInfo, reason);
+    if (reason.empty()) return apply(ChooseMeaning{choice});
+    if (!clicks_.offer()) clicks_.decline_offer();  // pressed again, the key is its tool's
+    return ws_.say(Message::Kind::kInfo, reason);
   }
   const ObjectItem& object = *document().active_object();
   Held& held = held_for(object);
@@ -257,12 +260,12 @@ void Studio::run(Action action) {
   if (row && row->waits != ActionRow::kForNothing && edits_.waiting())
     return edits_.in_turn([this, action] { run(action); });
   if (row && row->waits == ActionRow::kForCuts && cuts_.next() != 0)
-    return edits_.after_cuts(name_of(action), [this, action] { run(action); });
+    return edits_.after_cuts(short_name_of(action), [this, action] { run(action); });
   if (const std::string reason = why_not(action); !reason.empty()) {
     if (hold_for_cut(action)) return;
     const bool hint = action == Action::kConfirm;  // pressed by the way; nothing is wrong
     ws_.say(hint ? Message::Kind::kInfo : Message::Kind::kRefused,
-            hint ? reason : fmt::format("{}: {}", name_of(action), reason));
+            hint ? reason : fmt::format("{}: {}", short_name_of(action), reason));
     return;
   }
   if (const Tool* tool = tool_of(action)) {

@@ -26,7 +26,8 @@ void Studio::key_pressed(int code, const Modifiers& modifiers, bool repeated) {
   now.ctrl |= code == key::kLeftControl || code == key::kRightControl;
   now.alt |= code == key::kLeftAlt || code == key::kRightAlt;
   hold(now);
-  if (modifiers == Modifiers{} && (clicks_.chooses_by(code) || (code == '1' && held_actions_.meaning)))
+  if (modifiers == Modifiers{} &&
+      (clicks_.chooses_by(code) || clicks_.lacks_meaning(code) || (code == '1' && held_actions_.meaning)))
     return choose_meaning(code - '1');
   const Action action = action_for(code, modifiers);
   if (action == Action::kBrushSmaller || action == Action::kBrushLarger) {

@@ -217,4 +217,9 @@ const char* name_of(Action action) {
   return found == key_bindings().end() ? "" : found->what;
 }
 
+std::string short_name_of(Action action) {
+  const std::string_view name = name_of(action);
+  return std::string(name.substr(0, std::min({name.size(), name.find(" ("), name.find("; ")})));
+}
+
 }  // namespace splatcut

@@ -114,6 +114,8 @@ Action action_for(int key, const Modifiers& modifiers);
 std::string key_name(int key, const Modifiers& modifiers);  // name of a key: "Ctrl+Shift+Z"
 std::string keys_of(Action action);  // all keys of the action: "Ctrl+Shift+Z, Ctrl+Y"; empty: it has none
 const char* name_of(Action action);  // Binding::what of the action
+// The same without what explains it, as sentences about it begin: "Side by side".
+std::string short_name_of(Action action);
 
 // Direction in the picture of an arrow key, x right, y down; 0, 0: it is no arrow key.
 glm::vec2 arrow_direction(int key);

@@ -50,7 +50,7 @@ void size_slider(UiContext& ui, const ObjectItem& object) {
   if (object.views.empty()) return;
   const StrokeSizes* known = ui.studio.clicks().known_sizes();
   if (!known || known->count() < 2) {
-    const std::string why = known ? "The click means one size alone" : ui.studio.clicks().why_not_step(1);
+    const std::string why = ui.studio.clicks().why_not_step(1);
     slider_label("Part");
     ImGui::BeginDisabled();
     int none = 0;

@@ -60,7 +60,7 @@ void object_menu(UiContext& ui, const ObjectItem& object) {
   merge_menu(ui, object, locked);
   if (entry("Split into connected parts", first_of({locked, empty}))) ui.ask(SplitObject{object.id});
   if (entry("Separate in place", empty)) ui.ask(SeparateObject{object.id});
-  const bool without = is_without_others(object);
+  const bool without = is_without_others(ui.studio.document(), object, ui.studio.scene()->cloud->size());
   if (entry("Without the other objects", locked, without)) ui.ask(LeaveToOthers{object.id, !without});
   ImGui::Separator();
   const bool active = object.id == ui.studio.document().active;
@@ -129,8 +129,9 @@ void object_row(UiContext& ui, const ObjectItem& object) {
     ui.ask(ShowObject{object.id, !object.visible});
   ImGui::SameLine(0, 0);
   if (flat_icon(ui, object.locked ? icon::kLock : icon::kUnlock, object.locked,
-                object.locked ? "Locked: no click and no edit changes it. Press to unlock"
-                              : "Lock it: then no click and no edit changes it"))
+                object.locked
+                    ? "Locked: nothing changes it, and no other object takes what it has. Press to unlock"
+                    : "Lock it: then nothing changes it, and no other object takes what it has"))
     ui.ask(LockObject{object.id, !object.locked});
   ImGui::SameLine(0, 0);
   if (flat_icon(ui, icon::kMore, true, "More")) ImGui::OpenPopup("more");

@@ -80,22 +80,28 @@ void left_row(UiContext& ui, const LeftWork& left, bool first) {
 
 }  // namespace
 
-// Beside a scene the panel is for its objects: work of others stands behind one row.
+// The newest; the rest behind one row. Beside a scene the panel is for its objects: work of others stands
+// behind one row, too.
 void left_work_list(UiContext& ui) {
   const std::vector<LeftWork>& offers = ui.studio.work().offers();
   const bool in_panel = ui.studio.scene() != nullptr;
   const std::size_t own = in_panel ? ui.studio.work().own_offers() : offers.size();
-  const auto list = [&](std::size_t from, std::size_t to, std::size_t most) {
-    for (std::size_t i = from; i < std::min(to, from + most); ++i) left_row(ui, offers[i], i == 0 && own > 0);
-    if (to > from + most)
-      wrapped_muted(ui, fmt::format("and {} older, offered once these are done with", to - from - most));
+  const std::size_t newest = std::min(own, in_panel ? std::size_t{2} : std::size_t{3});
+  const auto list = [&](std::size_t from, std::size_t to) {
+    for (std::size_t i = from; i < to; ++i) left_row(ui, offers[i], i == 0 && own > 0);
+  };
+  const auto behind = [&](const std::string& row, std::size_t from, std::size_t to) {
+    if (from == to) return;
+    const bool open =
+        ImGui::TreeNodeEx(row.c_str(), ImGuiTreeNodeFlags_NoTreePushOnOpen | ImGuiTreeNodeFlags_FramePadding);
+    const ImVec2 min = ImGui::GetItemRectMin(), max = ImGui::GetItemRectMax();
+    ui.state.items.push_back({row.substr(0, row.find('#')), {min.x, min.y}, {max.x, max.y}});
+    if (open) list(from, to);
   };
   if (own > 0) wrapped_muted(ui, "Unsaved work. Click to restore:");
-  list(0, own, in_panel ? 2 : 5);
-  if (own == offers.size()) return;
-  const std::string row = fmt::format("Unsaved work of other scenes: {}###others", offers.size() - own);
-  if (ImGui::TreeNodeEx(row.c_str(), ImGuiTreeNodeFlags_NoTreePushOnOpen | ImGuiTreeNodeFlags_FramePadding))
-    list(own, offers.size(), 5);
+  list(0, newest);
+  behind(fmt::format("{} more###older", own - newest), newest, own);
+  behind(fmt::format("Unsaved work of other scenes: {}###others", offers.size() - own), own, offers.size());
 }
 
 void recent_list(UiContext& ui) {

@@ -188,9 +188,10 @@ void clean_edges_choice(UiContext& ui, const std::string& reason) {
   ImGui::BeginDisabled(!reason.empty());
   if (ImGui::Checkbox("Clean edges", &view.clean_edges) && reason.empty()) ui.ask(SetView{view});
   ImGui::EndDisabled();
-  tooltip(reason.empty() ? "Without what the scene around it had hidden, as the object looks alone; else its "
-                           "rows as they are"
-                         : reason);
+  tooltip(reason.empty()
+              ? "Leaves out and trims what only shows, as ragged bits, once the object stands alone; "
+                "else all is written as it is"
+              : reason);
 }
 
 void fill_hole_choice(UiContext& ui) {

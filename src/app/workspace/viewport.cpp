@@ -129,15 +129,18 @@ void Viewport::turn_about_object() {
     camera_.set_orbit_centre(robust_bounds(points).centre());
 }
 
-bool Viewport::shows_all_of_object() const {
+bool Viewport::shows_all_of_object() {
   if (!style_current() || !active_labels() || ws_.view.display == DisplayMode::kHide) return false;
   const std::shared_ptr<const Frame> frame = full_picture_of(pane_camera());
   if (!frame) return false;
+  if (whole_shown_.picture.lock() == frame && whole_shown_.labels == active_labels())
+    return whole_shown_.whole;
   Mask mask(frame->first_hit.width(), frame->first_hit.height());
   std::ranges::transform(frame->first_hit.pixels(), mask.pixels().begin(), [&](std::int32_t g) {
     return g >= 0 && (*active_labels())[static_cast<std::size_t>(g)] ? kMaskObject : std::uint8_t{0};
   });
-  return shows_whole(mask);
+  whole_shown_ = {frame, active_labels(), shows_whole(mask)};
+  return whole_shown_.whole;
 }
 
 DrawLimits Viewport::draw_limits() const {

@@ -44,7 +44,7 @@ class Viewport {
   // Points where the active object's Gaussians show; strays do not count.
   std::vector<glm::vec3> object_points() const;
   // True: the present picture shows the active object, and does not crop it.
-  bool shows_all_of_object() const;
+  bool shows_all_of_object();
   Camera pane_camera() const;  // camera of each pane: two panes show the same view
   int panes() const { return std::max(1, styles_.panes); }  // number of panes that are shown
   int pane_at(const glm::vec2& pixel) const;                // pane under the pixel; during a drag, the drag's
@@ -154,6 +154,11 @@ class Viewport {
   std::uint32_t placed_file_ = 0;
   std::uint64_t placed_serial_ = 0;  // serial of the document when its handles came
 
+  struct WholeShown {  // shows_all_of_object() of this picture and these labels
+    std::weak_ptr<const Frame> picture;
+    Flags labels;
+    bool whole = false;
+  } whole_shown_;
   std::optional<FrameResult> picture_;
   std::uint64_t picture_serial_ = 0;
   std::optional<Camera> requested_camera_;

@@ -85,7 +85,7 @@ CleanObject cleaned(const CleanInput& input, std::span<const Camera> cameras, co
   CleanReport& report = object.report;
   std::vector<OwnView> views = views_that_show(input, object.cloud, cameras, &report, job);
   if (views.empty()) {
-    report.why_not = "no side shows it";
+    report.why_not = "from no side it can be told what belongs to it";
     return object;
   }
   keep_best(&views);
@@ -102,7 +102,7 @@ CleanObject cleaned(const CleanInput& input, std::span<const Camera> cameras, co
     CleanObject same = as_labelled(input);
     same.report.views = report.views;
     same.report.agreed = report.agreed;
-    same.report.why_not = "what it would lose is seen in the scene";
+    same.report.why_not = "all that they would take off is seen in the scene, too";
     return same;
   }
   if (input.rest)
@@ -119,7 +119,7 @@ CleanObject clean_object(const CleanInput& input, const OwnViewOptions& options,
   constexpr int kLeastGaussians = 8;
   if (std::ranges::count_if(input.labels, std::identity()) < kLeastGaussians) {
     CleanObject few = as_labelled(input);
-    few.report.why_not = fmt::format("{} Gaussians have no edges", few.gaussian.size());
+    few.report.why_not = fmt::format("it has too few Gaussians ({})", few.gaussian.size());
     return few;
   }
   const std::vector<Camera> cameras =

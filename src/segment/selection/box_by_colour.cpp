@@ -23,7 +23,6 @@ Mask mask_of_box(const BoxPx& box, int width_px, int height_px) {
 std::vector<std::uint8_t> leaves_by_colour(const PartHierarchy& parts, const LeafView& view,
                                            const Stroke& box) {
   if (view.colour.empty()) return std::vector<std::uint8_t>(parts.leaves, 0);
-  if (!view.box_by_colour.empty() && view.box_px == box.points_px) return view.box_by_colour;
   const int width_px = view.camera.width_px, height_px = view.camera.height_px;
   const BoxPx inside = box_in_picture(box, width_px, height_px);
   RefineOptions refine;
@@ -32,6 +31,15 @@ std::vector<std::uint8_t> leaves_by_colour(const PartHierarchy& parts, const Lea
   const Mask mask = refine_mask(view.colour, view.depth, mask_of_box(inside, width_px, height_px), refine,
                                 draw_seeds({box}, width_px, height_px));
   return parts_of_mask(parts, view_parts(parts, picture_of(view).leaf), mask);
+}
+
+const std::vector<std::uint8_t>& KnownByColour::of(const PartHierarchy& parts, const LeafView& view,
+                                                   const Stroke& box) {
+  if (box_px != box.points_px) {
+    leaves = leaves_by_colour(parts, view, box);
+    box_px = box.points_px;
+  }
+  return leaves;
 }
 
 bool stands_out_more(const BoxMeanings& meanings, const LeafView& view, const BoxPx& box,

@@ -18,9 +18,16 @@
 
 namespace splatcut {
 
-// Flags per leaf; none if the view has no colour. Where the view knows them of this box, these.
+// Flags per leaf; none if the view has no colour.
 std::vector<std::uint8_t> leaves_by_colour(const PartHierarchy& parts, const LeafView& view,
                                            const Stroke& box);
+
+// The same kept with a view, as other meanings and sizes of a box ask again.
+struct KnownByColour {
+  std::vector<glm::vec2> box_px;     // corners; empty: of no box
+  std::vector<std::uint8_t> leaves;  // flags
+  const std::vector<std::uint8_t>& of(const PartHierarchy& parts, const LeafView& view, const Stroke& box);
+};
 
 // Whether the leaves found by colour are a better answer to the box than the others. meanings: of this box in
 // this view.

@@ -24,15 +24,15 @@ Leaves what_fills(const PartHierarchy& parts, const BoxMeanings& meanings,
 
 // What fills the box, what colour says of it beside that, or before it where that stands out clearly more,
 // then the likeliest single parts: each looks clearly different from all before.
-std::vector<Leaves> distinct_meanings(const PartHierarchy& parts, const LeafView& view, const Stroke& stroke,
-                                      const BoxPx& box, const BoxMeanings& meanings, const Leaves& fills,
-                                      std::span<const PartMeaning> found, float offered) {
+std::vector<Leaves> distinct_meanings(const PartHierarchy& parts, const LeafView& view,
+                                      const Leaves& by_colour, const BoxPx& box, const BoxMeanings& meanings,
+                                      const Leaves& fills, std::span<const PartMeaning> found,
+                                      float offered) {
   std::vector<Leaves> meant;
   const auto add = [&](const Leaves& leaves) {
     const auto alike = [&](const Leaves& other) { return look_alike(view, other, leaves); };
     if (any(leaves) && std::ranges::none_of(meant, alike)) meant.push_back(leaves);
   };
-  const Leaves by_colour = leaves_by_colour(parts, view, stroke);
   const bool colour_first = stands_out_more(meanings, view, box, by_colour, fills);
   add(colour_first ? by_colour : fills);
   add(colour_first ? fills : by_colour);
@@ -45,7 +45,7 @@ std::vector<Leaves> distinct_meanings(const PartHierarchy& parts, const LeafView
 
 }  // namespace
 
-bool ClickSelection::take_box(const LeafView& view, const Stroke& stroke) {
+bool ClickSelection::take_box(const LeafView& view, const Stroke& stroke, const FirstStroke& first) {
   const bool object = stroke.label == SeedLabel::kObject;
   const BoxPx box = box_in_picture(stroke, view.camera.width_px, view.camera.height_px);
   const BoxMeanings meanings(parts_, view, box, model_.box);
@@ -53,8 +53,10 @@ bool ClickSelection::take_box(const LeafView& view, const Stroke& stroke) {
   if (found.empty()) return false;
   Leaves leaves = what_fills(parts_, meanings, found);
   if (!any_) {
+    const Leaves by_colour =
+        first.by_colour.empty() ? leaves_by_colour(parts_, view, stroke) : first.by_colour;
     const std::vector<Leaves> meant =
-        distinct_meanings(parts_, view, stroke, box, meanings, leaves, found, model_.offered);
+        distinct_meanings(parts_, view, by_colour, box, meanings, leaves, found, model_.offered);
     Offers offers;
     for (const Leaves& some : meant) offers.masks.push_back(shown(view.leaves, view.camera, some));
     offers_ = std::make_shared<const Offers>(std::move(offers));

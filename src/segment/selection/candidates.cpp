@@ -68,7 +68,7 @@ class Asking {
 
   Answers take(const AnswerOptions& options) {
     make_chains();
-    if (click_.first) sum_looks();
+    if (click_.first) sum_looks(options.close_up);
     find_free();
     measure_stability();
     for (std::size_t c = 0; c < out_.chains.size(); ++c) add_candidates(c, options);
@@ -86,7 +86,7 @@ class Asking {
  private:
   bool wrong_side(std::uint32_t leaf) const { return (selected_.object[leaf] != 0) != click_.object; }
   void make_chains();
-  void sum_looks();
+  void sum_looks(bool close_up);
   void find_free();
   std::vector<float> compared_areas() const;
   void measure_stability();
@@ -147,11 +147,11 @@ void Asking::make_chains() {
 
 // The observing views', and the click's own view as one more of them, but for a close-up: it may crop what is
 // meant, and so speak against it.
-void Asking::sum_looks() {
+void Asking::sum_looks(bool close_up) {
   const std::vector<std::vector<PartLooks>> here = looks_in(parts_, picture_of(click_.view));
   for (std::size_t t = 0; t < parts_.trees.size(); ++t) {
     const std::vector<PartLooks>& elsewhere = parts_.trees[t].looks;
-    const bool own = !click_.view.close_up || elsewhere.empty() || !(elsewhere[click_.leaf].area > 0);
+    const bool own = !close_up || elsewhere.empty() || !(elsewhere[click_.leaf].area > 0);
     for (const std::uint32_t node : out_.chains[t].nodes) {
       PartLooks& looks = out_.chains[t].looks.emplace_back(own ? here[t][node] : PartLooks{});
       if (!elsewhere.empty()) looks += elsewhere[node];

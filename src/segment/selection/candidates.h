@@ -137,6 +137,8 @@ struct AnswerOptions {
   // True: kOffCentre is measured for all candidates. False: only for those that can win by it; others are
   // dropped.
   bool all_terms = false;
+  // True: a first click's view is a close-up (is_close_up()) and may crop what is meant.
+  bool close_up = false;
   float least_growth = 1;  // least ratio of changed pixels from one candidate of a chain to the next
 };
 

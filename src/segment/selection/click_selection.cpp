@@ -149,7 +149,7 @@ std::optional<Answers> ClickSelection::considered(const LeafView& view, const gl
                  options);
 }
 
-bool ClickSelection::take(const LeafView& view, const glm::vec2& pixel, const Stroke& stroke) {
+bool ClickSelection::take(const LeafView& view, const glm::vec2& pixel, const Stroke& stroke, bool close_up) {
   const bool object = stroke.label == SeedLabel::kObject;
   const float least_radius_px = stroke.radius_px;
   const auto [at, leaf, displayed, radius_px] = asked(view, pixel, object);
@@ -160,7 +160,7 @@ bool ClickSelection::take(const LeafView& view, const glm::vec2& pixel, const St
   }
   const Click click{view, at, object, !any_, leaf, radius_px, displayed};
   const std::vector<std::uint32_t> certain_px = disc(view.camera, at, radius_px, least_radius_px);
-  Answers found = answers(parts_, selected_, click, model_);
+  Answers found = answers(parts_, selected_, click, model_, {.close_up = close_up});
   if (found.candidates.empty()) return false;
   std::vector<std::uint8_t> certain(parts_.leaves, 0);
   std::vector<std::uint32_t> like_px;
@@ -360,11 +360,11 @@ void ClickSelection::label() {
   }
 }
 
-bool ClickSelection::apply(const LeafView& view, const Stroke& stroke) {
+bool ClickSelection::apply(const LeafView& view, const Stroke& stroke, const FirstStroke& first) {
   const bool object = stroke.label == SeedLabel::kObject;
   if (!any_ && !object) return false;
   sizes_ = {};
-  if (stroke.is_box()) return take_box(view, stroke);
+  if (stroke.is_box()) return take_box(view, stroke, first);
   const auto anything = [](std::uint32_t) { return true; };
   bool hit = false;
   spot_alone_ = false;
@@ -374,7 +374,7 @@ bool ClickSelection::apply(const LeafView& view, const Stroke& stroke) {
     for (const GroupWeight& w : view.gaussians.at(row_by_row(view.camera, nearest_pixel(view.camera, point))))
       share += labels_[w.group] ? w.weight : 0;
     if (!any_ || (share >= 0.5f) != object)
-      hit = take(view, point, stroke) || hit;
+      hit = take(view, point, stroke, first.close_up) || hit;
     else {
       if (stroke.points_px.size() == 1) confirm(view, point, object, stroke.radius_px);
       hit = true;

@@ -48,6 +48,13 @@ namespace splatcut {
 
 inline constexpr int kMostMeanings = 3;  // limit of meanings of a first click that are offered
 
+// What is known of a first stroke beside its view.
+struct FirstStroke {
+  bool close_up = false;  // the view is a close-up, see AnswerOptions
+  // Leaves that a box means by colour; empty: leaves_by_colour() finds them.
+  std::vector<std::uint8_t> by_colour;
+};
+
 class ClickSelection {
  public:
   // choice: number of the meaning of the first stroke to take, 0 the likeliest; see meanings(). It and
@@ -56,7 +63,7 @@ class ClickSelection {
 
   // Applies a stroke, given in the view's pixels. Returns false if it hits nothing of the scene, or marks the
   // rest before there is an object.
-  bool apply(const LeafView& view, const Stroke& stroke);
+  bool apply(const LeafView& view, const Stroke& stroke, const FirstStroke& first = {});
 
   // Candidates of a click on this pixel; none if it misses the scene, or if the pixel shows that label
   // already.
@@ -97,8 +104,8 @@ class ClickSelection {
  private:
   struct Asked;
   Asked asked(const LeafView& view, const glm::vec2& pixel, bool object) const;
-  bool take(const LeafView& view, const glm::vec2& pixel, const Stroke& stroke);
-  bool take_box(const LeafView& view, const Stroke& box);
+  bool take(const LeafView& view, const glm::vec2& pixel, const Stroke& stroke, bool close_up);
+  bool take_box(const LeafView& view, const Stroke& box, const FirstStroke& first);
   void confirm(const LeafView& view, const glm::vec2& pixel, bool object, float least_radius_px);
   std::vector<std::uint8_t> certain_leaves(const LeafView& view, std::span<const std::uint32_t> disc) const;
   float displayed_radius(const LeafView& view, const Mask& displayed, const glm::ivec2& at, bool object,

@@ -112,7 +112,7 @@ std::size_t LeafView::bytes() const {
   std::size_t bytes = 0;
   const auto add = [&](const auto&... array) { bytes += (... + std::span(array).size_bytes()); };
   add(gaussians.first, gaussians.entry, leaves.first, leaves.entry, depth.pixels(), steps.pixels(),
-      colour.pixels(), alone_px, leaf_px, leaf_frame_px, box_px, box_by_colour);
+      colour.pixels(), alone_px, leaf_px, leaf_frame_px);
   return bytes;
 }
 

@@ -34,14 +34,9 @@ struct LeafView {
   Image<std::uint8_t> steps;         // between pixels, without a jump in depth: steps_without_jump()
   Image<Rgb8> colour;                // its picture; empty: nobody needed it, see draw_colour()
   bool whole = true;                 // false: some Gaussians were left out
-  bool close_up = false;             // true: it may not hold what is meant, is_close_up()
   std::vector<float> alone_px;       // pixels that each Gaussian has if nothing occludes it; empty: not known
   std::vector<float> leaf_px;        // sum of each leaf's weights, pixels
   std::vector<float> leaf_frame_px;  // sum of each leaf's weights at the picture's frame, pixels
-  // Corners of a box, pixels, and flags per leaf of what it means by colour; empty: not known. Other meanings
-  // and sizes of that box ask again.
-  std::vector<glm::vec2> box_px;
-  std::vector<std::uint8_t> box_by_colour;
 
   std::size_t bytes() const;
 };

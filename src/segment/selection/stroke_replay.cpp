@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "segment/masks/mask_tools.h"
-#include "segment/selection/box_by_colour.h"
 #include "segment/selection/wide_view.h"
 
 namespace splatcut {
@@ -57,32 +56,33 @@ std::vector<CameraStroke> in_replay_order(std::span<const CameraStroke> strokes)
 
 std::size_t StrokeReplay::view_bytes() const {
   std::size_t bytes = 0;
-  for (const KnownView& known : views_) bytes += known.view.bytes();
+  for (const KnownView& known : views_) bytes += known.view.bytes() + known.box.leaves.size();
   return bytes;
 }
 
-LeafView* StrokeReplay::view(const Drawer& drawer, const CameraStroke& said, int width_px, const Job& job) {
+StrokeReplay::KnownView* StrokeReplay::view(const Drawer& drawer, const CameraStroke& said, int width_px,
+                                            const Job& job) {
   const Camera camera = limited_to_width(said.camera, width_px);
   const auto known = std::ranges::find_if(views_, [&](const KnownView& v) {
     return same_camera(v.view.camera, camera) && same_set(v.seen, said.seen);
   });
   if (known != views_.end()) {
     views_.splice(views_.begin(), views_, known);
-    return &views_.front().view;
+    return &views_.front();
   }
   LeafView made = leaf_view(drawer, parts_, camera, job, said.seen);
   if (job.cancelled()) return nullptr;  // it may be incomplete
   views_.push_front({std::move(made), said.seen});
   while (views_.size() > 1 && view_bytes() > most_bytes_) views_.pop_back();
-  return &views_.front().view;
+  return &views_.front();
 }
 
 bool StrokeReplay::close_up(const LeafView& view, const glm::vec2& pixel) const {
   const glm::ivec2 at = glm::clamp(glm::ivec2(pixel), glm::ivec2(0),
                                    glm::ivec2(view.camera.width_px - 1, view.camera.height_px - 1));
   const float depth = view.depth.at(at.x, at.y);
-  return depth > 0 &&
-         is_close_up(view.camera, capture_, view.camera.world_from_pixel(glm::vec2(at) + 0.5f, depth));
+  return depth > 0 && is_close_up(usual_picture(view.camera, capture_,
+                                                view.camera.world_from_pixel(glm::vec2(at) + 0.5f, depth)));
 }
 
 // What is small in the view is looked at with more pixels: by what is selected already, else by what the
@@ -102,8 +102,9 @@ std::shared_ptr<ClickSelection> StrokeReplay::after_in_view(const Drawer& drawer
   int width_px = width_to_see_it(shown_before);
   const bool settled = count(shown_before) > 0;
   while (!job.cancelled()) {
-    LeafView* seen = view(drawer, said, width_px, job);
-    if (!seen) return nullptr;
+    KnownView* known = view(drawer, said, width_px, job);
+    if (!known) return nullptr;
+    LeafView* seen = &known->view;
     const bool by_colour = !before.any() || (said.stroke.is_click() && said.stroke.label == SeedLabel::kRest);
     if (by_colour && seen->colour.empty()) {
       draw_colour(drawer, seen, job, said.seen);
@@ -115,12 +116,10 @@ std::shared_ptr<ClickSelection> StrokeReplay::after_in_view(const Drawer& drawer
     auto next = std::make_shared<ClickSelection>(before);
     const float factor = static_cast<float>(width_px) / static_cast<float>(said.camera.width_px);
     const Stroke stroke = scaled({said.stroke}, factor).front();
-    if (!before.any() && stroke.is_box()) {
-      seen->box_by_colour = leaves_by_colour(parts_, *seen, stroke);
-      seen->box_px = stroke.points_px;
-    }
-    if (!before.any()) seen->close_up = close_up(*seen, stroke.points_px.front());
-    next->apply(*seen, stroke);
+    FirstStroke first;
+    if (!before.any() && stroke.is_box()) first.by_colour = known->box.of(parts_, *seen, stroke);
+    if (!before.any()) first.close_up = close_up(*seen, stroke.points_px.front());
+    next->apply(*seen, stroke, first);
     if (said.earlier) next->keep_sizes_of(before);
     if (settled || width_px > camera.width_px) return next;
     width_px = width_to_see_it(!before.any() && options_.choice != 0 && !next->meanings().empty()

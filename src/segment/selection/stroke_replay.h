@@ -13,6 +13,7 @@
 #include <span>
 #include <vector>
 
+#include "segment/selection/box_by_colour.h"
 #include "segment/selection/click_selection.h"
 #include "segment/superpoints/usual_picture.h"
 
@@ -57,9 +58,10 @@ class StrokeReplay {
   struct KnownView {
     LeafView view;
     SeenGaussians seen;
+    KnownByColour box{};  // the last one in it
   };
   // View of the Gaussians that the stroke affects; null if cancelled.
-  LeafView* view(const Drawer& drawer, const CameraStroke& said, int width_px, const Job& job);
+  KnownView* view(const Drawer& drawer, const CameraStroke& said, int width_px, const Job& job);
   // Selection after one more stroke, looked at in its own view or a wider one; null if cancelled.
   std::shared_ptr<const ClickSelection> after(const Drawer& drawer, const ClickSelection& before,
                                               const CameraStroke& said, const Job& job);

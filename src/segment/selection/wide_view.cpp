@@ -47,7 +47,8 @@ Margins margins_of_correction(const Camera& camera, const GaussianCloud& cloud,
   if (selected.empty()) return {};
   Margins margins;
   if (!capture.photographs.empty())
-    margins = margins_of_close_up(camera, capture, robust_bounds(selected, kNotStrays).centre());
+    margins = margins_of_close_up(
+        camera, usual_picture(camera, capture, robust_bounds(selected, kNotStrays).centre()));
   if (x_px.empty()) return margins;
   const Range x = range_of(&x_px), y = range_of(&y_px);
   const int width = camera.width_px, height = camera.height_px;

@@ -124,13 +124,13 @@ Place Session::first_place(const Camera& eye, const Box& must_hold) const {
   Place place = seen_from(eye, must_hold.centre());
   // What is clicked from nearer than usual does not fit into a cell of that distance.
   const glm::vec3 at = must_hold.centre();
-  if (const auto usual = usual_picture(eye, whole_.capture, at)) {
+  const std::optional<UsualPicture> usual = usual_picture(eye, whole_.capture, at);
+  if (usual) {
     place.cell = cell_around(at, std::max(place.cell.level, level_above(usual->distance)));
-    if (is_close_up(eye, whole_.capture, at))
-      place.closer = usual->distance / glm::distance(eye.centre_world(), at);
+    if (is_close_up(usual)) place.closer = usual->distance / glm::distance(eye.centre_world(), at);
   }
   // A close-up would say of what it cuts off that nobody means it.
-  place.eye = with_margins(eye, margins_of_close_up(eye, whole_.capture, at));
+  place.eye = with_margins(eye, margins_of_close_up(eye, usual));
   const auto gaussians = [&](const Cell& cell) {
     return whole_.blocks->count_in(*scene_.cloud, cell.box_world());
   };

@@ -32,6 +32,7 @@ Capture capture_of(const GaussianCloud& cloud, std::span<const Camera> photograp
 
 struct UsualPicture {
   float distance = 0, breadth = 0;  // medians over the photographs that show the point, scene units
+  float times_own = 1;              // `breadth`, in breadths of the picture that it was asked for
 };
 
 // Nothing where there are photographs, but fewer than kEnoughPhotographs show the point; and without any
@@ -41,10 +42,10 @@ std::optional<UsualPicture> usual_picture(const Camera& camera, const Capture& c
 
 // True if this picture shows so much less around the point that it may not hold what is meant: its breadth
 // there is less than two thirds of the usual one.
-bool is_close_up(const Camera& camera, const Capture& capture, const glm::vec3& point_world);
+bool is_close_up(const std::optional<UsualPicture>& usual);
 
 // With these margins a picture that is_close_up() has the usual breadth, or three times its own if that is
 // less. None around another.
-Margins margins_of_close_up(const Camera& camera, const Capture& capture, const glm::vec3& point_world);
+Margins margins_of_close_up(const Camera& camera, const std::optional<UsualPicture>& usual);
 
 }  // namespace splatcut

@@ -31,7 +31,7 @@ TEST_CASE("exports: the dialog says what is written, and of what is moved that i
   CHECK(kept_text(choice, plan) == "Kept: places and colours.");
   CHECK(moved_text(choice.placement).empty());
   CHECK(kept_text(choice, plan, "The hole is filled.") ==
-        "Kept, but for what is said below: places and colours.");
+        "Written, with the changes named below: places and colours.");
   choice.placement.scale = 2;
   CHECK(kept_text(choice, plan) == "Written: places and colours.");
   CHECK(moved_text(choice.placement) == "It stands as chosen above, not as in the scene.");
@@ -46,30 +46,37 @@ TEST_CASE("exports: the dialog promises a number, and that nothing is lost, only
   EdgesKnown not_yet{.clean = true};
   not_yet.count({}, "Apple");
   CHECK(amount_text(choice, 17466, not_yet, {}, plan) == "At most 17,466 Gaussians, 4.3 MB");
-  CHECK(changes_text(choice, not_yet, {}) == "Clean edges leave out what the scene hides.");
+  CHECK(changes_text(choice, not_yet, {}) ==
+        "Clean edges leave out what only shows, as ragged bits, once the object stands alone, and trim or "
+        "recolour others. Untick them to write all as it is.");
   CHECK(loss_text(choice, not_yet, {}, plan).empty());
   EdgesKnown cleaned{.clean = true}, stays{.clean = true};
   cleaned.count(CleanReport{.cleaned = true, .left = 214}, "Apple");
   stays.count(CleanReport{.why_not = "3 Gaussians have no edges"}, "Mug");
   CHECK(amount_text(choice, 46423, cleaned, {}, plan) == "46,209 Gaussians, 4.3 MB");
-  CHECK(changes_text(choice, cleaned, {}) == "Clean edges leave out 214 Gaussians that the scene hides.");
+  CHECK(changes_text(choice, cleaned, {}) ==
+        "Clean edges leave out 214 Gaussians that only show, as ragged bits, once the object stands alone, "
+        "and trim or recolour others. Untick them to write all as it is.");
   CHECK(edges_stay_text(cleaned).empty());
   CHECK(amount_text(choice, 46423, stays, {}, plan) == "46,423 Gaussians, 4.3 MB");
-  CHECK(edges_stay_text(stays) == "Ticked, but edges of Mug cannot be cleaned: 3 Gaussians have no edges.");
+  CHECK(edges_stay_text(stays) == "Clean edges change nothing of Mug: 3 Gaussians have no edges.");
   CHECK(loss_text(choice, stays, {}, plan) == "Nothing is lost.");
   choice.what = ExportWhat::kAllObjects;
   EdgesKnown all = cleaned;
   all.count(CleanReport{.why_not = "3 Gaussians have no edges"}, "Mug");
-  CHECK(edges_stay_text(all) == "Ticked, but edges of Mug cannot be cleaned: 3 Gaussians have no edges.");
-  CHECK(changes_text(choice, all, {}) == "Clean edges leave out 214 Gaussians that the scene hides.");
+  CHECK(edges_stay_text(all) == "Clean edges change nothing of Mug: 3 Gaussians have no edges.");
+  CHECK(changes_text(choice, all, {}) ==
+        "Clean edges leave out 214 Gaussians that only show, as ragged bits, once the object stands alone, "
+        "and trim or recolour others. Untick them to write all as it is.");
   all.count(CleanReport{.why_not = "it is not seen"}, "Cup");
   CHECK(edges_stay_text(all) ==
-        "Ticked, but edges of 2 objects (Mug the first) cannot be cleaned: 3 Gaussians have no edges.");
+        "Clean edges change nothing of 2 objects (Mug the first): 3 Gaussians have no edges.");
   choice.what = ExportWhat::kRest;
   for (const EdgesKnown& edges : {not_yet, cleaned}) {
     CHECK(amount_text(choice, 139338, edges, {}, plan) == "About 139,338 Gaussians, about 4.3 MB");
-    CHECK(changes_text(choice, edges, {}) ==
-          "With clean edges, faint remains of the object go, too, and what was cut off its edges stays.");
+    CHECK(
+        changes_text(choice, edges, {}) ==
+        "Clean edges leave out faint remains of the object, too; what they trim off the object stays here.");
     CHECK(loss_text(choice, edges, {}, plan).empty());
   }
   CHECK(amount_text(choice, 139338, stays, {}, plan) == "139,338 Gaussians, 4.3 MB");

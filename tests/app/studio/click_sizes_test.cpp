@@ -33,7 +33,7 @@ TEST_CASE("clicks: the wheel takes sizes that differ, and says where there is no
       CHECK(steps < 60);
       const bool told =
           artist.said().starts_with(notch > 0 ? "This is the largest size" : "This is the smallest size") ||
-          artist.said().find("one size alone") != std::string::npos;
+          artist.said().starts_with(notch > 0 ? "No larger part holds" : "No smaller part was found");
       CHECK(told);
     }
   }
@@ -270,7 +270,7 @@ TEST_CASE("clicks: a step of the size shows its outline at once and is computed 
     artist.app.key(key::kPageDown);
     REQUIRE(artist.app.settle());
   }
-  CHECK(artist.said().ends_with("smallest size"));
+  CHECK(artist.said().find("smallest size: right-click") != std::string::npos);
   CHECK(clicks.size_wanted() == 0);
   CHECK(clicks.known_sizes()->size == 0);
   CHECK(clicks.known_sizes()->count() == sizes);

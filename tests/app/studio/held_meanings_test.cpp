@@ -86,9 +86,31 @@ TEST_CASE("held meanings: where the click has no other one that is said") {
   Impatient artist(kOneMeaning);
   artist.app.key('2');
   artist.settle();
-  CHECK(artist.was_told("The click has no other meaning. The wheel right after it takes more or less"));
+  CHECK(artist.was_told("This click has no other meaning; the wheel right after it takes more or less"));
   CHECK(artist.studio().view().tool == Tool::kClick);
   CHECK(artist.object().choice == 0);
+}
+
+TEST_CASE("held meanings: after a click without other ones 2 and 3 say so once, then they are tools") {
+  Impatient artist(kOneMeaning);
+  artist.settle();
+  REQUIRE_FALSE(artist.studio().clicks().offer());
+  SUBCASE("3 is the scribble") {
+    artist.app.key('3');
+    CHECK(artist.said() ==
+          "This click has no other meaning; the wheel right after it takes more or less. Press 3 again for "
+          "Scribble");
+    CHECK(artist.studio().view().tool == Tool::kClick);
+  }
+  SUBCASE("2 is the tool that is chosen already") {
+    artist.app.key('2');
+    CHECK(artist.said() == "This click has no other meaning; the wheel right after it takes more or less");
+  }
+  SUBCASE("Esc says that none is meant") {
+    artist.app.key(key::kEscape);
+  }
+  artist.app.key('3');
+  CHECK(artist.studio().view().tool == Tool::kScribble);
 }
 
 TEST_CASE("held meanings: Esc, a tool and another click drop them") {

@@ -363,3 +363,57 @@ TEST_CASE("others: a shape that is mostly another's takes what it holds, and not
   edit_by_shape(&document, Labels{1, 1, 1, 0, 0, 0, 0, 1}, SetOperation::kAdd, context);
   CHECK(labels_of(document, three, kCount) == Labels{1, 1, 1, 0, 0, 0, 0, 1});
 }
+
+TEST_CASE("others: what is locked no other object takes, by clicks, boxes, shapes or all that is selected") {
+  Others hands;
+  Studio& studio = hands.studio();
+  const Labels apple = hands.labels(1);
+  studio.apply(LockObject{1, true});
+  studio.apply(NewObject{});
+  hands.click(kOnApple);  // as it would be a part of it, or share
+  hands.settle();
+  CHECK(hands.said() ==
+        "Object 1: is locked, and no other object takes what it has. Unlock it in the objects panel.");
+  CHECK(hands.selected() == 0);
+  hands.box(kAppleFrom, kAppleTo);
+  hands.settle();
+  CHECK(shared(hands.labels(2), apple) == 0);
+  hands.click(kOnOrange);
+  hands.settle();
+  REQUIRE(hands.selected() > 0);
+  hands.take_left_of(kOnApple, SetOperation::kAdd);
+  CHECK(shared(hands.labels(2), apple) == 0);
+  CHECK(hands.said().find(". What is locked keeps ") != std::string::npos);
+  hands.app.key('A', {.ctrl = true});
+  hands.settle();
+  CHECK(shared(hands.labels(2), apple) == 0);
+  CHECK(hands.selected() == apple.size() - count_flags(apple));
+  CHECK(hands.said().find("are selected. What is locked keeps ") != std::string::npos);
+  studio.apply(LeaveToOthers{2, false});
+  hands.settle();
+  CHECK(shared(hands.labels(2), apple) == 0);
+  CHECK(hands.labels(1) == apple);
+  studio.apply(LockObject{1, false});
+  hands.app.key('A', {.ctrl = true});
+  hands.settle();
+  CHECK(hands.selected() == apple.size());
+}
+
+TEST_CASE("others: a lock takes nothing that another object shared before, and keeps it from deletion") {
+  constexpr std::size_t kCount = 6;
+  const GaussianCloud cloud = random_cloud(kCount, 1, 0);
+  const EditContext context{cloud};
+  Document document;
+  set_labels(&document, &add_object(&document), Labels{1, 1, 1, 0, 0, 0});
+  ObjectItem& two = add_object(&document);
+  two.cut = make_flags({0, 1, 0, 1, 0, 0});
+  edit(&document, LockObject{1, true}, context);
+  CHECK(labels_of(document, *document.find(2), kCount) == Labels{0, 1, 0, 1, 0, 0});
+  document.find(2)->cut = make_flags({1, 1, 1, 1, 1, 0});  // its next size
+  CHECK(labels_of(document, *document.find(2), kCount) == Labels{0, 1, 0, 1, 1, 0});
+  CHECK_FALSE(is_without_others(document, *document.find(2), kCount));  // that is a choice of its own
+  document.active = 2;
+  CHECK(edit(&document, DeleteSelected{}, context).find("What is locked keeps 1 Gaussian") !=
+        std::string::npos);
+  CHECK(labels_of(document, *document.find(1), kCount) == Labels{1, 1, 1, 0, 0, 0});
+}

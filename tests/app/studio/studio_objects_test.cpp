@@ -122,14 +122,15 @@ TEST_CASE("hands: all that is selected by hand is not without the others, and is
   hands.app.click(hands.app.screen_of(kOnOrange));
   REQUIRE(hands.app.settle());
   const ObjectId second = studio.document().active;
-  CHECK(is_without_others(*studio.document().find(second)));
+  CHECK(is_without_others(studio.document(), *studio.document().find(second), apple.size()));
   hands.app.key('A', {.ctrl = true});
   REQUIRE(hands.selected() == apple.size());
-  CHECK_FALSE(is_without_others(*studio.document().find(second)));  // no tick
+  CHECK_FALSE(
+      is_without_others(studio.document(), *studio.document().find(second), apple.size()));  // no tick
   studio.apply(LeaveToOthers{second, true});
   CHECK(hands.selected() == apple.size() - count_flags(apple));
   CHECK(hands.said().find("Now without the other objects: Object 2: ") == 0);
-  CHECK(is_without_others(*studio.document().find(second)));
+  CHECK(is_without_others(studio.document(), *studio.document().find(second), apple.size()));
   studio.apply(LeaveToOthers{second, false});
   CHECK(hands.selected() == apple.size());
   CHECK(hands.said().find("Now with what others have: Object 2: ") == 0);

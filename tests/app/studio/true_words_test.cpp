@@ -133,11 +133,25 @@ TEST_CASE("words: the outline of a right click ends where the view is isolated o
   CHECK(outlined());
 }
 
+TEST_CASE("words: why a key does nothing comes behind the key's name, not behind all that F1 says of it") {
+  Hands hands(false);
+  hands.studio().run(Action::kSideBySide);
+  CHECK(hands.said() == "Side by side: Click an object first");
+  CHECK(short_name_of(Action::kCursor) == "A cursor in the picture");
+  CHECK(short_name_of(Action::kUndo) == "Undo");
+}
+
 TEST_CASE("words: nearly the whole scene is no hint to a box, nor is a leap without a step") {
-  CHECK(why_no_larger(true, 96, 100) ==
+  CHECK(why_no_larger(96, 100) ==
         "This is the largest size: nearly the whole scene is taken. Page Down takes less");
-  CHECK(why_no_larger(true, 90, 100) == "This is the largest size; a box (4) may find more");
-  CHECK(why_no_larger(false, 90, 100) == "This is the largest size");
+  CHECK(
+      why_no_larger(90, 100) ==
+      "This is the largest size: no larger part holds this place. Click beside it, or drag a box (4) around "
+      "the thing");
+  CHECK(why_one_size(1, false) ==
+        "No larger part holds this place: click beside it, or drag a box (4) around the thing");
+  CHECK(why_one_size(-1, false) == "No smaller part was found in it: right-click what does not belong to it");
+  CHECK(why_one_size(1, true).find("larger") == std::string::npos);
   CHECK(leap_of_size(100, 401).find("no size between was found") != std::string::npos);
   CHECK(leap_of_size(401, 100) == leap_of_size(100, 401));
   CHECK(leap_of_size(100, 400).empty());

@@ -7,6 +7,7 @@
 
 #include "app/work/work_file.h"
 #include "app/work/work_picture.h"
+#include "core/picture_file.h"
 #include "core/png_file.h"
 #include "opened_sample.h"
 

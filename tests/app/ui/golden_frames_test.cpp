@@ -10,6 +10,7 @@
 #include "app/work/work_picture.h"
 #include "core/error.h"
 #include "core/picture_difference.h"
+#include "core/picture_file.h"
 #include "core/png_file.h"
 #include "headless_app.h"
 #include "keep_drivers_loaded.h"

@@ -48,12 +48,22 @@ TEST_CASE("left work: scenes whose files trainers name alike are told apart by t
   CHECK(app.button("\nfox").size().x > 0);
 }
 
-TEST_CASE("left work: in a small window the line on older work ends within the start page") {
+TEST_CASE("left work: the start page shows the three newest, the rest behind a row that ends within it") {
   const ScratchFolder folder("left_many");
   for (int i = 2; i < 9; ++i) leave_work(folder, "fox", fmt::format("autosave.{}.splatcut.json", i));
   HeadlessApp app(480, 480, 1, with_state(folder));
   app.frames(3);
-  REQUIRE(app.studio().work().offers().size() > 5);
+  REQUIRE(app.studio().work().offers().size() == 7);
+  const auto rows = [&] {
+    return std::ranges::count_if(app.interface_state().items, [](const ShownItem& i) {
+      return i.name.find("\nfox") != std::string::npos;
+    });
+  };
+  CHECK(rows() == 3);
+  CHECK(app.button("4 more").size().x > 0);
+  app.press_item("/start", {"###older"});
+  app.frames(2);
+  CHECK(rows() == 7);
   app->interface().make_current();
   std::size_t found = 0;
   for (const ImGuiWindow* w : GImGui->Windows) {

@@ -7,7 +7,7 @@
 
 #include "app/picture/animated_webp.h"
 #include "core/error.h"
-#include "core/png_file.h"
+#include "core/picture_file.h"
 #include "headless_app.h"
 #include "only_path.h"
 

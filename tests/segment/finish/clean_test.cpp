@@ -247,7 +247,7 @@ TEST_CASE("what no side shows keeps its edges, which is said") {
   const CleanObject none = clean_object({hidden, thing.test.truth_labels, {0, -1, 0}, thing.scene.cameras});
   CHECK_FALSE(none.report.cleaned);
   CHECK(none.report.views == 0);
-  CHECK(none.report.why_not == "no side shows it");
+  CHECK(none.report.why_not == "from no side it can be told what belongs to it");
 }
 
 TEST_CASE("the guard: what an object's own pictures show is not cut off") {
@@ -256,7 +256,7 @@ TEST_CASE("the guard: what an object's own pictures show is not cut off") {
   const Thing thing(options, "background");  // touched by every thing, and hidden by it
   const CleanObject object = thing.clean();
   CHECK_FALSE(object.report.cleaned);
-  CHECK(object.report.why_not == "what it would lose is seen in the scene");
+  CHECK(object.report.why_not == "all that they would take off is seen in the scene, too");
   CHECK(object.report.left + object.report.split + object.report.made_solid + object.report.recoloured == 0);
   CHECK(same_rows(object.cloud, thing.as_labelled()));
 }

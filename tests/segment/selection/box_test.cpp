@@ -189,7 +189,7 @@ TEST_CASE(
   CHECK(meant(view_of({kRed, kRed, kRed, kBlue}), columns(0, 20)) == Labels{1, 1, 0, 0});
 }
 
-TEST_CASE("box: what a view knows of it by colour is not found again, of another box it is") {
+TEST_CASE("box: what is known of it by colour is not found again, of another box it is") {
   const PartHierarchy parts = four_leaves();
   LeafView view = stripes(parts);
   view.colour = Image<Rgb8>(40, 10);
@@ -199,10 +199,10 @@ TEST_CASE("box: what a view knows of it by colour is not found again, of another
                               static_cast<std::uint8_t>((3 * x + 5 * y) % 7), 40};
   const Labels found = leaves_by_colour(parts, view, columns(10, 30));
   CHECK(found == Labels{0, 1, 1, 0});
-  view.box_px = columns(10, 30).points_px;
-  view.box_by_colour = {1, 0, 0, 1};
-  CHECK(leaves_by_colour(parts, view, columns(10, 30)) == Labels{1, 0, 0, 1});
-  CHECK(leaves_by_colour(parts, view, columns(9, 30)) == found);
+  KnownByColour known{columns(10, 30).points_px, {1, 0, 0, 1}};
+  CHECK(known.of(parts, view, columns(10, 30)) == Labels{1, 0, 0, 1});
+  CHECK(known.of(parts, view, columns(9, 30)) == found);
+  CHECK(known.box_px == columns(9, 30).points_px);
 }
 
 // Single stripes are the likeliest of clicks by far. What a box holds, and what a click wants, no pair does.

@@ -88,9 +88,10 @@ TEST_CASE("selection: a first click's terms of all views, worked out by hand") {
   // pair covers .04 of a picture, free of the frame, with a border of 1.2 sides before something farther.
   PartHierarchy parts = four_leaves();
   LeafView view = stripes(parts);
+  bool close_up = false;
   const auto terms_of_pair = [&] {
-    const auto found =
-        ClickSelection(parts, borders_alone()).considered(view, {5.5f, 5.5f}, true, {.all_terms = true});
+    const auto found = ClickSelection(parts, borders_alone())
+                           .considered(view, {5.5f, 5.5f}, true, {.all_terms = true, .close_up = close_up});
     REQUIRE(found);
     const auto pair = std::ranges::find(found->candidates, 1u, &Candidate::index);
     REQUIRE(pair != found->candidates.end());
@@ -111,7 +112,7 @@ TEST_CASE("selection: a first click's terms of all views, worked out by hand") {
   CHECK(weight(all, Term::kLarge) == doctest::Approx(std::log((0.25 + 0.0016) / (0.5 + 0.04) / 0.35)));
   CHECK(weight(all, Term::kSmall) == 0);
   // A close-up counts only where nothing else shows the clicked leaf.
-  view.close_up = true;
+  close_up = true;
   CHECK(terms_of_pair() == all);
   parts.trees[0].looks[0].area = 0.02f;
   const TermValues elsewhere = terms_of_pair();

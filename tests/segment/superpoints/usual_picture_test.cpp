@@ -17,7 +17,7 @@ namespace {
 constexpr glm::vec3 kPoint{0, 0, 0};
 
 Camera widened(const Camera& camera, const Capture& capture) {
-  return with_margins(camera, margins_of_close_up(camera, capture, kPoint));
+  return with_margins(camera, margins_of_close_up(camera, usual_picture(camera, capture, kPoint)));
 }
 
 Capture captured(std::span<const Camera> photographs) {
@@ -54,16 +54,16 @@ TEST_CASE("usual picture: a close-up shows less than two thirds of what photogra
   const Capture capture = captured(std::vector<Camera>(3, photograph(3)));
   const glm::vec3 beside{0.6f, -0.4f, 0.2f};
   for (const float distance : {6.0f, 3.0f, 2.01f}) {
-    CHECK_FALSE(is_close_up(photograph(distance), capture, kPoint));
+    CHECK_FALSE(is_close_up(usual_picture(photograph(distance), capture, kPoint)));
     CHECK(same_camera(widened(photograph(distance), capture), photograph(distance)));
   }
   for (const float distance : {1.9f, 1.5f, 1.0f}) {
     const Camera near = photograph(distance);
-    CHECK(is_close_up(near, capture, kPoint));
+    CHECK(is_close_up(usual_picture(near, capture, kPoint)));
     const Camera wide = widened(near, capture);
     CHECK(same_pose(wide, near));
     CHECK(wide.width_px == doctest::Approx(100 * 3 / distance).epsilon(0.02));
-    CHECK_FALSE(is_close_up(wide, capture, kPoint));
+    CHECK_FALSE(is_close_up(usual_picture(wide, capture, kPoint)));
     // It is the same picture with a margin all around.
     const float margin_px = static_cast<float>(wide.width_px - 100) / 2;
     const glm::vec2 in_near = near.pixel_from_camera(near.camera_from_world(beside));
@@ -73,7 +73,7 @@ TEST_CASE("usual picture: a close-up shows less than two thirds of what photogra
   }
   CHECK(widened(photograph(0.01f), capture).width_px == 300);
   const Capture two = captured(std::vector<Camera>(2, photograph(3)));
-  CHECK_FALSE(is_close_up(photograph(0.01f), two, kPoint));
+  CHECK_FALSE(is_close_up(usual_picture(photograph(0.01f), two, kPoint)));
   CHECK(same_camera(widened(photograph(0.01f), kUnknownCapture), photograph(0.01f)));
 }
 
@@ -82,18 +82,18 @@ TEST_CASE("usual picture: a close-up shows less than two thirds of what photogra
 TEST_CASE("usual picture: without photographs, that of the subject, for what lies near it") {
   const Capture capture{.photographs = {}, .subject = {.centre_world = {0, 0, 1}, .radius = 1}};
   for (const float distance : {9.0f, 1.6f, 0.68f, 0.1f})
-    CHECK_FALSE(is_close_up(photograph(distance), capture, kPoint));
+    CHECK_FALSE(is_close_up(usual_picture(photograph(distance), capture, kPoint)));
   for (const float distance : {1.5f, 1.0f, 0.72f}) {
     const auto usual = usual_picture(photograph(distance), capture, kPoint);
     REQUIRE(usual);
     CHECK(usual->breadth == doctest::Approx(2.3));
     CHECK(usual->distance == doctest::Approx(2.3));
-    CHECK(is_close_up(photograph(distance), capture, kPoint));
+    CHECK(is_close_up(usual_picture(photograph(distance), capture, kPoint)));
     CHECK(widened(photograph(distance), capture).width_px ==
           doctest::Approx(100 * std::min(3.0f, 2.3f / distance)).epsilon(0.02));
   }
   const Capture elsewhere{.photographs = {}, .subject = {.centre_world = {0, 0, 3.1f}, .radius = 1}};
-  CHECK_FALSE(is_close_up(photograph(1), elsewhere, kPoint));
+  CHECK_FALSE(is_close_up(usual_picture(photograph(1), elsewhere, kPoint)));
 }
 
 TEST_CASE("usual picture: the subject is what was captured finely, and asked for without photographs alone") {
