@@ -24,6 +24,11 @@ inline ObjectItem& unlocked(Document* document, ObjectId id) {
   return object;
 }
 
+// The object that strokes and selections go to.
+inline ObjectItem& target(Document* document) {
+  return document->active_object() ? unlocked(document, document->active) : add_object(document);
+}
+
 inline const FlowGraph& required_graph(const EditContext& context) {
   assert(context.graph);
   return context.graph->get(context.job);

@@ -439,17 +439,19 @@ bool Clicks::lacks_meaning(int key) const {
          ws_.view.display == DisplayMode::kWhole && !ws_.view.heat;
 }
 
+std::string Clicks::why_no_meaning(Action pressed) const {
+  const ObjectItem* object = ws_.document().active_object();
+  const Stroke* last = object ? last_stroke(object->views) : nullptr;
+  const Tool* tool = tool_of(pressed);
+  return fmt::format(
+      "This {} has no other meaning; the wheel right after it takes more or less{}",
+      last && last->is_box() ? "box" : "click",
+      tool && *tool != ws_.view.tool ? fmt::format(". The tool is {} now", name_of(pressed)) : "");
+}
+
 std::string Clicks::why_not_choose(int choice) const {
   const ClickMeanings* offered = offer();
-  if (!offered) {
-    const Action action = action_for('1' + choice, {});
-    const ObjectItem* object = ws_.document().active_object();
-    const Stroke* last = object ? last_stroke(object->views) : nullptr;
-    const bool again = *tool_of(action) != ws_.view.tool;
-    return fmt::format("This {} has no other meaning; the wheel right after it takes more or less{}",
-                       last && last->is_box() ? "box" : "click",
-                       again ? fmt::format(". Press {} again for {}", choice + 1, name_of(action)) : "");
-  }
+  if (!offered) return why_no_meaning();
   if (choice < std::ssize(offered->outlines)) return {};
   return "Two meanings are offered: keys 1 and 2. After Esc, 3 is a tool again";
 }

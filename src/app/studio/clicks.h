@@ -6,6 +6,7 @@
 #include <string>
 
 #include "app/studio/edits.h"
+#include "app/tools/actions.h"
 #include "app/workspace/cut_jobs.h"
 #include "app/workspace/viewport.h"
 #include "app/workspace/workspace.h"
@@ -35,6 +36,7 @@ class Clicks {
   // True if it is pressed for one that the click does not have: no tool was chosen since, and it was not
   // said.
   bool lacks_meaning(int key) const;
+  std::string why_no_meaning(Action pressed = Action::kNone) const;  // pressed: what its key does instead
   std::string why_not_choose(int choice) const;  // refusal if no such meaning is offered; else empty
   bool decline_offer();  // withdraws the offer, also one that is hidden; returns false if none was shown
   // Sizes that the active object's last click can have; null: they are not known, or it has none.

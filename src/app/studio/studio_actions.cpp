@@ -212,9 +212,7 @@ bool Studio::hold_for_cut(Action action) {
 void Studio::choose_meaning(int choice) {
   if (!clicks_.offer_comes()) {
     const std::string reason = clicks_.why_not_choose(choice);
-    if (reason.empty()) return apply(ChooseMeaning{choice});
-    if (!clicks_.offer()) clicks_.decline_offer();  // pressed again, the key is its tool's
-    return ws_.say(Message::Kind::kInfo, reason);
+    return reason.empty() ? apply(ChooseMeaning{choice}) : ws_.say(Message::Kind::kInfo, reason);
   }
   const ObjectItem& object = *document().active_object();
   Held& held = held_for(object);

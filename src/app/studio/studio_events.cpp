@@ -26,10 +26,15 @@ void Studio::key_pressed(int code, const Modifiers& modifiers, bool repeated) {
   now.ctrl |= code == key::kLeftControl || code == key::kRightControl;
   now.alt |= code == key::kLeftAlt || code == key::kRightAlt;
   hold(now);
-  if (modifiers == Modifiers{} &&
-      (clicks_.chooses_by(code) || clicks_.lacks_meaning(code) || (code == '1' && held_actions_.meaning)))
+  if (modifiers == Modifiers{} && (clicks_.chooses_by(code) || (code == '1' && held_actions_.meaning)))
     return choose_meaning(code - '1');
   const Action action = action_for(code, modifiers);
+  if (modifiers == Modifiers{} && clicks_.lacks_meaning(code)) {
+    const std::string reason = clicks_.why_no_meaning(action);
+    clicks_.decline_offer();
+    run(action);
+    return ws_.say(Message::Kind::kInfo, reason);
+  }
   if (action == Action::kBrushSmaller || action == Action::kBrushLarger) {
     // A keyboard repeats 30 times a second: the size doubles in one all the same.
     constexpr double kStepSeconds = 0.16;

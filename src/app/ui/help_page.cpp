@@ -94,7 +94,8 @@ std::string pointer_words() {
          " A middle drag turns with any tool, with Shift it shifts. Shift+wheel: sizes of the last click at "
          "any "
          "time; while a flight key is held, the wheel changes the speed. While other meanings of a click are "
-         "shown, 1, 2 and 3 choose one, until Esc; after a click without, 2 or 3 says so once. Where one "
+         "shown, 1, 2 and 3 choose one, until Esc; after a click without, they are tools, and say so. Where "
+         "one "
          "clicks, draws or selects, Shift adds, Ctrl "
          "removes, "
          "Alt intersects. Alt+wheel: the brush. Tab marks buttons and fields, Enter presses them.";
