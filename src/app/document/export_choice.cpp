@@ -72,10 +72,30 @@ std::string proposed_path(const ExportChoice& choice, const std::filesystem::pat
   return free_path(folder / (stem + "_" + name + extension), extension).string();
 }
 
+std::filesystem::path typed_in(const std::filesystem::path& folder, const std::filesystem::path& typed) {
+  return typed.empty() || typed.is_absolute() || folder.empty() ? typed : folder / typed;
+}
+
 std::filesystem::path target_of(const ExportChoice& choice) {
   const bool folder = choice.what == ExportWhat::kAllObjects;
-  if (folder || choice.path.empty() || choice.path.ends_with(choice.format.extension)) return choice.path;
-  return choice.path + choice.format.extension;
+  const bool complete = folder || choice.path.empty() || choice.path.ends_with(choice.format.extension);
+  return typed_in(choice.folder, complete ? choice.path : choice.path + choice.format.extension);
+}
+
+std::string whose_text(const Document& document, ExportWhat what) {
+  const ObjectItem* object = document.active_object();
+  if (!object || (what != ExportWhat::kObject && what != ExportWhat::kRest)) return {};
+  constexpr std::size_t kMostNamed = 3;
+  std::string others;
+  std::size_t count = 0;
+  for (const ObjectItem& other : document.objects) {
+    if (other.id == object->id || (!other.cut && !other.hand)) continue;
+    if (++count <= kMostNamed) others += (others.empty() ? "" : ", ") + other.name;
+  }
+  if (count == 0) return {};
+  if (what == ExportWhat::kObject) return "Of " + object->name + " alone.";
+  if (count > kMostNamed) others += fmt::format(" and {} more", count - kMostNamed);
+  return fmt::format("All but {}: {} {} in it.", object->name, others, count == 1 ? "stays" : "stay");
 }
 
 void EdgesKnown::count(const std::optional<CleanReport>& report, const std::string& name) {

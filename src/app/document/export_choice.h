@@ -16,7 +16,8 @@ struct ExportChoice {
   ExportWhat what = ExportWhat::kObject;
   bool for_want_of_object = false;  // the whole scene, as there was no object when it was asked for
   SceneFormat format = SceneFormat::kPly;
-  std::string path;
+  std::string path;              // as typed; see target_of()
+  std::filesystem::path folder;  // that was proposed: a name alone goes there; empty: none was
   bool overwrite = false;
   bool name_first = false;    // the dialog opens: what is typed first is the name
   std::string marked_folder;  // "…/", before the name that is marked; empty: none is, or it was typed over
@@ -43,9 +44,17 @@ std::filesystem::path folder_of_next(const std::filesystem::path& scene, const s
 std::string proposed_path(const ExportChoice& choice, const std::filesystem::path& scene,
                           const ObjectItem* object, const std::filesystem::path& last = {});
 
+// A typed path: one that does not say from where it begins, as a name alone, begins in the folder; an empty
+// one stays so.
+std::filesystem::path typed_in(const std::filesystem::path& folder, const std::filesystem::path& typed);
+
 // Where it goes: the path with the format's extension, as under another one the file could not be opened
 // again.
 std::filesystem::path target_of(const ExportChoice& choice);
+
+// Of whom the file is where there are several objects: what is left of a scene without one of them still
+// holds the others. Empty: there is no other, or it is of all.
+std::string whose_text(const Document& document, ExportWhat what);
 
 // What is known, before an export, of the edges of the objects that it is about.
 struct EdgesKnown {

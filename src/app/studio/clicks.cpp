@@ -179,7 +179,7 @@ std::string Clicks::why_not_step(int steps) const {
   if (last == 0) return why_one_size(steps, last_takes_away(object->views));
   if (last_takes_away(object->views)) {
     if (steps > 0 && size >= last) return "The click takes no more away than this: right-click what is left";
-    if (steps < 0 && size == 0) return "The click takes no less away than this: click what is missing";
+    if (steps < 0 && size == 0) return "The click takes no less away than this: click what shall come back";
   }
   if (steps > 0 && size >= last) return why_no_larger(ws_.gaussians_of(object->id), ws_.gaussians());
   if (steps < 0 && size == 0) return "This is the smallest size: right-click what does not belong to it";
@@ -408,7 +408,16 @@ void Clicks::turn_about_cut() {
   viewport_.turn_about_object();
 }
 
+// A click that undo or its dot took away may be made again, and offers again.
+void Clicks::forget_declined() {
+  const auto is_declined = [&](const ObjectItem& object) {
+    return ws_.history.keys(object).first_click == declined_offer_;
+  };
+  if (std::ranges::none_of(ws_.document().objects, is_declined)) declined_offer_.clear();
+}
+
 void Clicks::update() {
+  if (!declined_offer_.empty()) forget_declined();
   leave_what_came();
   turn_about_cut();
   if (std::exchange(cuts_done_, cuts_.done()) != cuts_.done()) note_sizes();

@@ -92,6 +92,7 @@ class Clicks {
   const ClickMeanings* meanings(const ObjectItem& object) const;
   const ClickMeanings* offered() const;
   const ObjectItem* object_of_offers() const;
+  void forget_declined();
   std::optional<HoverAsk> hover_wanted() const;
   bool asks_ahead() const;
   bool can_ask() const;

@@ -262,13 +262,19 @@ void Studio::run(Action action) {
   if (const std::string reason = why_not(action); !reason.empty()) {
     if (hold_for_cut(action)) return;
     const bool hint = action == Action::kConfirm;  // pressed by the way; nothing is wrong
+    const bool of_sizes = action == Action::kPartLarger || action == Action::kPartSmaller;
     ws_.say(hint ? Message::Kind::kInfo : Message::Kind::kRefused,
-            hint ? reason : fmt::format("{}: {}", short_name_of(action), reason));
+            hint || of_sizes ? reason : fmt::format("{}: {}", short_name_of(action), reason));
     return;
   }
   if (const Tool* tool = tool_of(action)) {
-    const std::string why = *tool == ws_.view.tool ? clicks_.why_no_meanings() : "";
-    if (!why.empty()) ws_.say(Message::Kind::kInfo, why);
+    if (const std::string hidden = clicks_.why_no_meanings(); !hidden.empty())
+      ws_.say(Message::Kind::kInfo,
+              *tool == ws_.view.tool
+                  ? hidden
+                  : fmt::format("The tool is {} now: what else the click can mean is no longer "
+                                "offered",
+                                name_of(action)));
     ViewState view = ws_.view;
     view.tool = *tool;
     return apply(SetView{view});

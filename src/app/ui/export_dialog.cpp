@@ -78,6 +78,7 @@ void propose_path(UiContext& ui) {
   ExportChoice& choice = ui.state.exporting;
   choice.path = proposed_path(choice, ui.studio.scene()->scene->path, ui.studio.document().active_object(),
                               ui.studio.exports().folder());
+  choice.folder = std::filesystem::path(choice.path).parent_path();
   choice.path_typed = false;
 }
 
@@ -347,6 +348,8 @@ void export_dialog(UiContext& ui) {
   const Palette& p = ui.theme.colour;
   line_across(p);
   fact(icon::kInfo, p.accent, amount_text(choice, gaussians, edges, hole, plan));
+  if (const std::string whose = whose_text(ui.studio.document(), choice.what); !whose.empty())
+    fact(icon::kInfo, p.accent, whose);
   const std::string changes = changes_text(choice, edges, hole);
   fact(icon::kCheck, p.good, kept_text(choice, plan, changes));
   for (const std::string& text :
@@ -362,7 +365,10 @@ void export_dialog(UiContext& ui) {
   forget_trouble_of_another_try(choice, request);
   if (!choice.trouble.empty()) fact(icon::kWarning, p.bad, choice.trouble);
   const std::filesystem::path& target = request.path;
-  if (target != choice.path) fact(icon::kInfo, p.accent, "The file will be " + target.filename().string());
+  if (target != choice.path) {
+    const bool typed = std::filesystem::path(choice.path).is_absolute();
+    fact(icon::kInfo, p.accent, "It will be " + (typed ? target.filename() : target).string());
+  }
   std::error_code ignored;
   const bool exists = std::filesystem::exists(target, ignored);
   if (exists) ImGui::Checkbox("Replace the file that is there", &choice.overwrite);

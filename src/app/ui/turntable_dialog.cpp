@@ -31,6 +31,7 @@ void propose(UiContext& ui) {
                               (name.substr(0, name.find('.')) + "_turntable" + ending),
                           ending)
                     .string();
+  choice.folder = std::filesystem::path(choice.path).parent_path();
 }
 
 void label(const char* text) {
@@ -116,7 +117,7 @@ std::string what_is_written(const TurntableChoice& choice) {
 
 // What it would write over; pictures have names of their own in their folder.
 std::filesystem::path first_written(const TurntableChoice& choice) {
-  const std::filesystem::path path = choice.path;
+  const std::filesystem::path path = typed_in(choice.folder, choice.path);
   return choice.as == TurntableAs::kPictures ? path / "frame_0000.png" : path;
 }
 
@@ -173,8 +174,8 @@ void turntable_dialog(UiContext& ui) {
       button(ui, "Save", "Draw and write the pictures  (Enter)", reason, reason.empty(), 110);
   const bool done = pressed || (reason.empty() && !cancelled && !browse && !typing && enter_pressed());
   if (done)
-    ui.ask(SaveTurntable{choice.path, choice.frames, choice.width_px, choice.height_px, choice.as,
-                         choice.turn_s, ui.studio.view().clean_edges});
+    ui.ask(SaveTurntable{typed_in(choice.folder, choice.path), choice.frames, choice.width_px,
+                         choice.height_px, choice.as, choice.turn_s, ui.studio.view().clean_edges});
   if (done || cancelled) leave_finish(ui, done);
   if (done || cancelled || browse) {
     ui.state.turntable_open = false;

@@ -46,6 +46,7 @@ struct ExportPreview {
 struct TurntableChoice {
   int frames = 72, width_px = 0, height_px = 0;  // 0: as large as the view
   std::string path;
+  std::filesystem::path folder;  // that was proposed: a name alone goes there
   TurntableAs as = TurntableAs::kPictures;
   float turn_s = 3;
   bool overwrite = false;

@@ -113,6 +113,32 @@ TEST_CASE("held meanings: after a click without other ones 2 and 3 are tools, an
   CHECK(artist.studio().view().tool == Tool::kScribble);
 }
 
+TEST_CASE("held meanings: a click that is made again after undo offers again what Esc had declined") {
+  Impatient artist;
+  artist.settle();
+  REQUIRE(artist.studio().clicks().offer());
+  artist.app.key(key::kEscape);
+  REQUIRE_FALSE(artist.studio().clicks().offer());
+  artist.app.key('Z', {.ctrl = true});
+  artist.settle();
+  artist.app.click(artist.screen_of(kPageOfBook));
+  artist.settle();
+  CHECK(artist.studio().clicks().offer());
+}
+
+TEST_CASE("held meanings: a tool that ends an offer which the isolated view hides says so") {
+  Impatient artist;
+  artist.settle();
+  REQUIRE(artist.studio().clicks().offer());
+  artist.app.key('I');
+  artist.settle();
+  artist.app.key('2');  // the tool that is chosen already ends nothing
+  CHECK(artist.said().starts_with("What else the click can mean is shown in the whole scene"));
+  artist.app.key('3');
+  CHECK(artist.studio().view().tool == Tool::kScribble);
+  CHECK(artist.said() == "The tool is Scribble now: what else the click can mean is no longer offered");
+}
+
 TEST_CASE("held meanings: Esc, a tool and another click drop them") {
   for (const int dropped_by : {int(key::kEscape), int('4'), 0}) {
     CAPTURE(dropped_by);
