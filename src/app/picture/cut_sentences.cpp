@@ -40,11 +40,13 @@ bool changed_little(const std::vector<std::uint8_t>& before, const std::vector<s
   return static_cast<double>(changed) < kLittle * static_cast<double>(is);
 }
 
-std::string why_so_already(const CutRequest& request, const CutResult& result) {
+std::string why_so_already(const CutRequest& request, const CutResult& result, bool little_changed) {
   const bool adds = !last_takes_away(request.strokes);
-  return std::string(adds ? "that place belonged to it already. To take more, click what is missing"
-                          : "that place does not belong to it as it is. To remove more, right-click a piece "
-                            "of it") +
+  return std::string(!adds ? "that place does not belong to it as it is. To remove more, right-click a piece "
+                             "of it"
+                     : little_changed
+                         ? "little was missing there. To take more, click what is missing"
+                         : "that place belonged to it already. To take more, click what is missing") +
          (result.size + 1 < result.sizes ? adds ? ", or press + for a larger part" : ", or press +" : "");
 }
 

@@ -21,8 +21,9 @@ bool is_of_stroke(const History& history);  // the last that was done is a strok
 // Less of the object than can be seen. before, after: as above.
 bool changed_little(const std::vector<std::uint8_t>& before, const std::vector<std::uint8_t>& after);
 
-// Of a last click that asks for what is so already: that it does, and what to do for more.
-std::string why_so_already(const CutRequest& request, const CutResult& result);
+// Of a last click that asks for what is so already: that it does, and what to do for more. little_changed:
+// some of that place was not so.
+std::string why_so_already(const CutRequest& request, const CutResult& result, bool little_changed = false);
 
 // That there is no larger size, and what may take more: nothing where nearly all is taken. taken, all: of the
 // scene's Gaussians.

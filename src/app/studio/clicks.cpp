@@ -230,7 +230,8 @@ const StrokeMark* Clicks::pointed_mark() const {
 bool Clicks::on_last_dot() const {
   const ObjectItem* object = ws_.document().active_object();
   const StrokeMark* mark = viewport_.mark_at(ws_.tools.pointer_px());
-  if (!object || !mark || !tool_of(ws_.view.tool).clicks_object || mark->view >= object->views.size())
+  if (!object || !mark || !mark->from_here || !tool_of(ws_.view.tool).clicks_object ||
+      mark->view >= object->views.size())
     return false;
   const Strokes& strokes = object->views[mark->view].strokes;
   return mark->stroke < strokes.size() && &strokes[mark->stroke] == last_stroke(object->views);

@@ -96,7 +96,8 @@ class Clicks {
   std::optional<HoverAsk> hover_wanted() const;
   bool asks_ahead() const;
   bool can_ask() const;
-  bool on_last_dot() const;  // the pointer is on the dot of the object's last stroke
+  // The pointer is on the dot of the object's last stroke, in its view: elsewhere a wheel there zooms.
+  bool on_last_dot() const;
   void refresh_hover();
   bool looks_only();
   void ask_by_colour(const HoverAsk& ask);

@@ -164,7 +164,8 @@ void draw_strokes(const UiContext& ui, const UiRect& area) {
     draw_click(list, place(mark.at_px), mark.object, mark.from_here ? opacity : kFromElsewhere * opacity);
   if (const StrokeMark* mark = ui.studio.clicks().pointed_mark(); mark && pointed_at(ui, area)) {
     draw_pointed_click(list, place(mark->at_px), mark->object);
-    tooltip_within(area, std::string(mark->object ? "Right" : "Left") + " click: takes this click away");
+    tooltip_within(area, std::string(mark->object ? "Right" : "Left") + " click: takes this click away" +
+                             (ui.studio.clicks().wheel_takes_sizes() ? ". Wheel: takes more or less" : ""));
   }
 }
 

@@ -363,12 +363,11 @@ void CutJobs::finish(const Order& order, CutRun run, const Flags& labels) {
   const bool stroked = is_of_stroke(ws_.history);
   const Flags before = cut_already && !stroked ? shown : labels_before(order, shown);
   const bool so_already = so_already_ == order.key;
-  const std::string already = so_already ? why_so_already(order.request, *result) : "";
   if (stroked && *before == *labels_now() && count_flags(*before) > 0) {
     if (CutRun* kept = known_run(order.object, order.key)) kept->changed_nothing = true;
     return ws_.say(Message::Kind::kRefused,
                    fmt::format("{}: {}, as before: {}", name, gaussians_text(count_flags(*before)),
-                               so_already ? already
+                               so_already ? why_so_already(order.request, *result)
                                           : "that changed nothing. Click nearer to what is wrong, come "
                                             "nearer, or draw over it"));
   }
@@ -384,7 +383,7 @@ void CutJobs::finish(const Order& order, CutRun run, const Flags& labels) {
                           : little && beside
                               ? "that lay beside the clicked place. To remove more, right-click where the "
                                 "outline is red"
-                          : little ? already
+                          : little ? why_so_already(order.request, *result, *before != *labels_now())
                                    : "";
   const std::string hint =
       ws_.tools.scale_armed() ? wheel_hint(order.request, *result, *before, *labels_now()) : "";
