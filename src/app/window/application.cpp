@@ -173,7 +173,9 @@ bool Application::walks(const KeyChanged& event) {
 }
 
 void Application::handle_one(const KeyChanged& event) {
-  if (walks(event)) return;
+  const bool in_field = ImGui::GetIO().WantTextInput || interface_.dialog_open();
+  const bool comes_after = !held_back_.empty() && in_field;  // letters that wait are for the field before it
+  if (!comes_after && walks(event)) return;
   take(event);
   if (!event.down) return studio_.key_released(event.key);
   if (ImGui::GetIO().WantTextInput || interface_.dialog_open()) return;
@@ -206,7 +208,11 @@ void Application::take(const HeldEvent& event) {
 
 void Application::take_held_back() {
   key_pressed_since_frame_ = dropped_since_frame_ = false;
-  for (const HeldEvent& event : std::exchange(held_back_, {})) take(event);
+  for (const HeldEvent& event : std::exchange(held_back_, {})) {
+    const auto* key = std::get_if<KeyChanged>(&event);
+    if (held_back_.empty() && key && walks(*key)) continue;
+    take(event);
+  }
 }
 
 void Application::take_now(const TextTyped& event) {
