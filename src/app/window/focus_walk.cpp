@@ -41,7 +41,7 @@ void turn_to(ImGuiWindow* window) {
 bool can_be_pressed(const ImGuiNavItemData& item) {
   const bool scrolls = std::ranges::any_of(
       GImGui->Windows, [&](const ImGuiWindow* window) { return window->ChildId == item.ID; });
-  return !scrolls && !(item.InFlags & ImGuiItemFlags_Disabled);
+  return !scrolls && !(item.InFlags & (ImGuiItemFlags_Disabled | ImGuiItemFlags_NoTabStop));
 }
 
 }  // namespace
