@@ -377,16 +377,17 @@ void export_dialog(UiContext& ui) {
     export_preview(ui, {kPreview - 20, kHeight - 96});
     ImGui::Columns(1);
   }
-  ImGui::SetCursorPosY(ImGui::GetWindowHeight() - 42);
-  const bool cancelled = plain_button(ui, "Cancel", 110) || (!typing && !dragging && escape_pressed());
-  ImGui::SameLine(ImGui::GetWindowWidth() - 122);
   const std::string reason = choice.path.empty()             ? "Type where it should go"
                              : !(choice.placement.scale > 0) ? "The scale must be larger than 0"
                              : gaussians == 0                ? "It would hold no Gaussians"
                              : exists && !choice.overwrite
                                  ? "The file exists: allow replacing it, or change the name"
                                  : "";
+  const ImVec2 lowest_row = {ImGui::GetCursorPosX(), ImGui::GetWindowHeight() - 42};
+  ImGui::SetCursorPos({ImGui::GetWindowWidth() - 122, lowest_row.y});  // Tab comes to it before Cancel
   const bool pressed = button(ui, "Export", "Write the file  (Enter)", reason, reason.empty(), 110);
+  ImGui::SetCursorPos(lowest_row);
+  const bool cancelled = plain_button(ui, "Cancel", 110) || (!typing && !dragging && escape_pressed());
   const bool done = pressed || (reason.empty() && !typing && enter_pressed());
   if (done) ui.ask(Export{request});
   if (done || cancelled) {

@@ -159,7 +159,9 @@ void export_preview(UiContext& ui, const glm::vec2& size_points) {
   const UiRect area = {{at.x, at.y}, glm::vec2(at.x, at.y) + size_points};
   ImDrawList& list = *ImGui::GetWindowDrawList();
   list.AddRectFilled(vec(area.min), vec(area.max), kBackdrop, 6);
+  ImGui::PushAllowKeyboardFocus(false);  // a picture is for the pointer: Tab passes it over
   ImGui::InvisibleButton("##preview", {size_points.x, size_points.y});
+  ImGui::PopAllowKeyboardFocus();
   const bool hovered = ImGui::IsItemHovered(), held = ImGui::IsItemActive();
   if (preview.sample.size() == 0 || !(ui.state.exporting.placement.scale > 0))
     return preview.grips.shown.clear();

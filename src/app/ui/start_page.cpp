@@ -101,7 +101,11 @@ void left_work_list(UiContext& ui) {
   if (own > 0) wrapped_muted(ui, "Unsaved work. Click to restore:");
   list(0, newest);
   behind(fmt::format("{} more###older", own - newest), newest, own);
-  behind(fmt::format("Unsaved work of other scenes: {}###others", offers.size() - own), own, offers.size());
+  const std::size_t others = offers.size() - own;
+  std::string row = fmt::format("Unsaved work of other scenes: {}", others);
+  const float room = ImGui::GetContentRegionAvail().x - ImGui::GetTreeNodeToLabelSpacing();
+  if (ImGui::CalcTextSize(row.c_str()).x > room) row = fmt::format("{} unsaved of other scenes", others);
+  behind(row + "###others", own, offers.size());
 }
 
 void recent_list(UiContext& ui) {

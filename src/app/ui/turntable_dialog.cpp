@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "app/console/run_program.h"
 #include "app/ui/panels.h"
@@ -31,7 +32,7 @@ void propose(UiContext& ui) {
                               (name.substr(0, name.find('.')) + "_turntable" + ending),
                           ending)
                     .string();
-  choice.folder = std::filesystem::path(choice.path).parent_path();
+  choice.proposed = choice.path;
 }
 
 void label(const char* text) {
@@ -91,9 +92,14 @@ void as_row(UiContext& ui, TurntableChoice& choice) {
               ffmpeg ? "" : "ffmpeg is not installed"}}) {
     if (a.as != TurntableAs::kPictures) ImGui::SameLine(0, 2);
     if (!button(ui, a.name, a.tip, a.reason, choice.as == a.as) || choice.as == a.as) continue;
-    const std::string before = kEndings[static_cast<std::size_t>(choice.as)];
-    if (choice.path.ends_with(before)) choice.path.resize(choice.path.size() - before.size());
-    choice.as = a.as;
+    const TurntableAs before = std::exchange(choice.as, a.as);
+    if (choice.path == choice.proposed) {  // what exists under one ending says nothing of the others
+      choice.path.clear();
+      propose(ui);
+      continue;
+    }
+    const std::string ending = kEndings[static_cast<std::size_t>(before)];
+    if (choice.path.ends_with(ending)) choice.path.resize(choice.path.size() - ending.size());
     choice.path += kEndings[static_cast<std::size_t>(a.as)];
   }
   if (choice.as == TurntableAs::kPictures) return;
@@ -115,9 +121,14 @@ std::string what_is_written(const TurntableChoice& choice) {
          camera;
 }
 
+// A name alone goes to the folder that was proposed.
+std::filesystem::path target_of(const TurntableChoice& choice) {
+  return typed_in(std::filesystem::path(choice.proposed).parent_path(), choice.path);
+}
+
 // What it would write over; pictures have names of their own in their folder.
 std::filesystem::path first_written(const TurntableChoice& choice) {
-  const std::filesystem::path path = typed_in(choice.folder, choice.path);
+  const std::filesystem::path path = target_of(choice);
   return choice.as == TurntableAs::kPictures ? path / "frame_0000.png" : path;
 }
 
@@ -163,19 +174,20 @@ void turntable_dialog(UiContext& ui) {
     ImGui::Checkbox(choice.as == TurntableAs::kPictures ? "Replace the pictures that are there"
                                                         : "Replace the file that is there",
                     &choice.overwrite);
-  ImGui::SetCursorPosY(ImGui::GetWindowHeight() - 42);
-  const bool cancelled = plain_button(ui, "Cancel", 110) || (!typing && escape_pressed());
-  ImGui::SameLine(ImGui::GetWindowWidth() - 122);
   const std::string reason = choice.path.empty() ? "Type where they should go"
                              : exists && !choice.overwrite
                                  ? "The file exists: allow replacing it, or change the name"
                                  : "";
+  const ImVec2 lowest_row = {ImGui::GetCursorPosX(), ImGui::GetWindowHeight() - 42};
+  ImGui::SetCursorPos({ImGui::GetWindowWidth() - 122, lowest_row.y});  // Tab comes to it before Cancel
   const bool pressed =
       button(ui, "Save", "Draw and write the pictures  (Enter)", reason, reason.empty(), 110);
+  ImGui::SetCursorPos(lowest_row);
+  const bool cancelled = plain_button(ui, "Cancel", 110) || (!typing && escape_pressed());
   const bool done = pressed || (reason.empty() && !cancelled && !browse && !typing && enter_pressed());
   if (done)
-    ui.ask(SaveTurntable{typed_in(choice.folder, choice.path), choice.frames, choice.width_px,
-                         choice.height_px, choice.as, choice.turn_s, ui.studio.view().clean_edges});
+    ui.ask(SaveTurntable{target_of(choice), choice.frames, choice.width_px, choice.height_px, choice.as,
+                         choice.turn_s, ui.studio.view().clean_edges});
   if (done || cancelled) leave_finish(ui, done);
   if (done || cancelled || browse) {
     ui.state.turntable_open = false;

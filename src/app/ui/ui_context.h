@@ -46,10 +46,10 @@ struct ExportPreview {
 struct TurntableChoice {
   int frames = 72, width_px = 0, height_px = 0;  // 0: as large as the view
   std::string path;
-  std::filesystem::path folder;  // that was proposed: a name alone goes there
   TurntableAs as = TurntableAs::kPictures;
   float turn_s = 3;
   bool overwrite = false;
+  std::string proposed = {};  // a path that is still this one was not typed or chosen
 };
 
 // By-property selection of the repair panel.
@@ -143,6 +143,8 @@ struct UiState {
   double message_s = -1;                  // time of the message whose place was chosen
   bool message_at_right = false;
   UiRect message;               // where one shows; no size: none does
+  std::string message_text;     // what the last one that showed said, as far as there was room
+  std::string offer_words;      // behind the buttons of other meanings, as they were shown last
   bool double_clicked = false;  // the last press was the second of two, by the events' own times
   bool steady = false;          // for pictures that must repeat: no times, no version, no blinking
   std::vector<std::filesystem::path> recent;

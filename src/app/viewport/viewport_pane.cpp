@@ -60,19 +60,6 @@ std::size_t covers(const UiContext& ui, const UiRect& picture, const UiRect& rec
   return inside;
 }
 
-// Without its first sentences where it takes more than that height: what is to be noted stands at the end.
-std::string end_of(const std::string& text, float wrap, float most_height) {
-  constexpr std::string_view kLeftOut = "... ";
-  std::string shown = text;
-  while (banner_size(shown, wrap).y > most_height) {
-    const std::size_t stop =
-        std::min({shown.find(". ", kLeftOut.size()), shown.find("; "), shown.find('\n')});
-    if (stop == std::string::npos || stop + 2 >= shown.size()) break;
-    shown = kLeftOut.data() + shown.substr(stop + (shown[stop] == '\n' ? 1 : 2));
-  }
-  return shown;
-}
-
 // In the lower corner that covers less of the object as the message comes; there it stays.
 void draw_message(const UiContext& ui, const UiRect& area) {
   const ImVec2 pointer = ImGui::GetIO().MousePos;
@@ -84,8 +71,10 @@ void draw_message(const UiContext& ui, const UiRect& area) {
   const bool warns = message.kind == Message::Kind::kRefused, fails = message.kind == Message::Kind::kError;
   constexpr float kMargin = 14, kMostShare = 1.0f / 8;  // of the picture; all of it under the pointer
   const float wrap = std::min(760.0f, area.size().x - 90);
-  const float most_height = whole || warns || fails ? area.size().y : kMostShare * area.size().y;
-  const std::string text = end_of(message.text, wrap, most_height);
+  const float share = std::max(kMostShare * area.size().y, banner_size("\n", wrap).y);  // two lines at least
+  const float most_height = whole || warns || fails ? area.size().y : share;
+  const std::string text = shortened(
+      message.text, [&](const std::string& said) { return banner_size(said, wrap).y <= most_height; });
   const glm::vec2 size = banner_size(text, wrap);
   const glm::vec2 left(area.min.x + kMargin, area.max.y - size.y - kMargin),
       right(std::max(left.x, area.max.x - size.x - kMargin), left.y);
@@ -94,6 +83,7 @@ void draw_message(const UiContext& ui, const UiRect& area) {
         covers(ui, area, {right, right + size}) < covers(ui, area, {left, left + size});
   const glm::vec2 at = ui.state.message_at_right ? right : left;
   ui.state.message = {at, at + size};
+  ui.state.message_text = text;
   banner(ui, vec(at),
          warns || fails                         ? icon::kWarning
          : message.kind == Message::Kind::kDone ? icon::kCheck
@@ -154,10 +144,12 @@ struct OfferBar {
   const char* words;  // behind the buttons
 };
 
-// As many words as fit left of `right`.
+// As many words as fit left of `right`, in two lines if need be: that Esc keeps what was taken comes last to
+// go.
 std::optional<OfferBar> offer_bar(const UiContext& ui, const ImVec2& at, float right) {
   constexpr const char* kWords[] = {"what else this can mean  (Esc: keep this one)",
-                                    "what else this can mean", "Esc: keep this one"};
+                                    "what else this can mean\n(Esc: keep this one)", "Esc: keep this one",
+                                    "Esc: keep"};
   const ClickMeanings* offer = ui.studio.clicks().offer();
   if (!offer) return {};
   const auto count = static_cast<float>(offer->outlines.size());
@@ -180,6 +172,7 @@ std::optional<UiRect> offer_line(UiContext& ui, const ImVec2& at, float right) {
   const int taken = first && first->size_step == 0 ? object.choice : -1;  // another size is none of them
   const ImVec2 words = ImGui::CalcTextSize(bar->words), size = vec(bar->rect.size());
   ImDrawList& list = *ImGui::GetWindowDrawList();
+  ui.state.offer_words = bar->words;
   floating_box(ui, at, vec(bar->rect.max));
   ImGui::SetCursorScreenPos({at.x + kPad, at.y + kPad});
   for (int i = 0; i < std::ssize(offer->outlines); ++i) {

@@ -173,7 +173,9 @@ bool Application::walks(const KeyChanged& event) {
 }
 
 void Application::handle_one(const KeyChanged& event) {
-  if (walks(event)) return;
+  const bool in_field = ImGui::GetIO().WantTextInput || interface_.dialog_open();
+  const bool comes_after = in_field && (!held_back_.empty() || waits_for_walk(event));
+  if (!comes_after && walks(event)) return;
   take(event);
   if (!event.down) return studio_.key_released(event.key);
   if (ImGui::GetIO().WantTextInput || interface_.dialog_open()) return;
@@ -193,11 +195,19 @@ bool Application::is_only_text(const KeyChanged& event) const {
          (event.down ? io.WantTextInput : !io.KeysDown[event.key]);
 }
 
+// What is pressed and typed after Tab is for what Tab comes to; steps of Tab add up.
+bool Application::waits_for_walk(const HeldEvent& event) const {
+  const auto* key = std::get_if<KeyChanged>(&event);
+  const bool typed = key ? key->key != key::kTab : std::holds_alternative<TextTyped>(event);
+  return typed && walk_.searching();
+}
+
 void Application::take(const HeldEvent& event) {
   const auto* key = std::get_if<KeyChanged>(&event);
-  if (held_back_.empty() && key && is_only_text(*key)) return set_modifiers(key->modifiers);
-  const bool waits =
-      !held_back_.empty() || dropped_since_frame_ || (key && !key->down && key_pressed_since_frame_);
+  const bool walk_first = waits_for_walk(event);
+  if (held_back_.empty() && !walk_first && key && is_only_text(*key)) return set_modifiers(key->modifiers);
+  const bool waits = !held_back_.empty() || walk_first || dropped_since_frame_ ||
+                     (key && !key->down && key_pressed_since_frame_);
   if (waits)
     held_back_.push_back(event);
   else
@@ -206,7 +216,11 @@ void Application::take(const HeldEvent& event) {
 
 void Application::take_held_back() {
   key_pressed_since_frame_ = dropped_since_frame_ = false;
-  for (const HeldEvent& event : std::exchange(held_back_, {})) take(event);
+  for (const HeldEvent& event : std::exchange(held_back_, {})) {
+    const auto* key = std::get_if<KeyChanged>(&event);
+    if (held_back_.empty() && key && !waits_for_walk(event) && walks(*key)) continue;
+    take(event);
+  }
 }
 
 void Application::take_now(const TextTyped& event) {

@@ -71,6 +71,7 @@ class Application {
   void take_held_back();
   bool walks(const KeyChanged& event);  // true: the key was for the walk of Tab alone
   bool is_only_text(const KeyChanged& event) const;
+  bool waits_for_walk(const HeldEvent& event) const;
   void take_now(const KeyChanged& event);
   void take_now(const TextTyped& event);
   void take_now(const PointerMoved& event);

@@ -41,7 +41,7 @@ void turn_to(ImGuiWindow* window) {
 bool can_be_pressed(const ImGuiNavItemData& item) {
   const bool scrolls = std::ranges::any_of(
       GImGui->Windows, [&](const ImGuiWindow* window) { return window->ChildId == item.ID; });
-  return !scrolls && !(item.InFlags & ImGuiItemFlags_Disabled);
+  return !scrolls && !(item.InFlags & (ImGuiItemFlags_Disabled | ImGuiItemFlags_NoTabStop));
 }
 
 }  // namespace
@@ -96,6 +96,7 @@ void FocusWalk::before_frame() {
 }
 
 void FocusWalk::after_frame() {
+  if (arriving_ > 0) --arriving_;
   if (!searched_) return;
   ImGuiContext& g = *GImGui;
   const bool from_end = g.NavId == 0;
@@ -117,6 +118,7 @@ void FocusWalk::after_frame() {
   g.NavIdIsAlive = true;
   steps_ -= direction();
   frames_left_ = kMostFrames;
+  arriving_ = 2;
   marked_ = found.ID;
   field_ = (found.InFlags & ImGuiItemFlags_Inputable) != 0;
   ImGui::ScrollToBringRectIntoView(found.Window, ImGui::WindowRectRelToAbs(found.Window, found.RectRel));

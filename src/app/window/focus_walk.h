@@ -15,10 +15,10 @@ namespace splatcut {
 
 class FocusWalk {
  public:
-  void step(int direction);                       // 1: to the next item, -1: to the one before; steps add up
-  bool press();                                   // presses the item that is marked; false: none is
-  bool leave();                                   // takes the mark away; false: there is none
-  bool searching() const { return steps_ != 0; }  // true: more frames are needed
+  void step(int direction);  // 1: to the next item, -1: to the one before; steps add up
+  bool press();              // presses the item that is marked; false: none is
+  bool leave();              // takes the mark away; false: there is none
+  bool searching() const { return steps_ != 0 || arriving_ > 0; }  // true: more frames are needed
 
   void before_frame();
   void after_frame();
@@ -35,6 +35,7 @@ class FocusWalk {
   bool searched_ = false;  // in this frame
   ImGuiID marked_ = 0;     // item
   bool field_ = false;     // it is typed into
+  int arriving_ = 0;       // frames until ImGui has left the field before, and takes letters for this one
 };
 
 }  // namespace splatcut

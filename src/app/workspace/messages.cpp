@@ -62,4 +62,25 @@ bool add_to_shown(Message::Kind kind, const std::string& text, double now_s, std
   return true;
 }
 
+namespace {
+
+// Where the sentence or line that begins at `from` ends, with the blank behind it.
+std::size_t end_of_piece(const std::string& text, std::size_t from) {
+  const std::size_t stop = std::min({text.find(". ", from), text.find("; ", from), text.find('\n', from)});
+  if (stop == std::string::npos) return text.size();
+  return stop + (text[stop] == '\n' ? 1 : 2);
+}
+
+}  // namespace
+
+std::string shortened(const std::string& text, const std::function<bool(const std::string&)>& fits) {
+  const std::size_t first_end = end_of_piece(text, 0);
+  if (fits(text) || first_end == text.size()) return text;
+  std::string first = text.substr(0, first_end);
+  first.erase(first.find_last_not_of(" ;\n") + 1);
+  for (std::size_t from = end_of_piece(text, first_end); from < text.size(); from = end_of_piece(text, from))
+    if (const std::string shown = first + " ... " + text.substr(from); fits(shown)) return shown;
+  return first + " ...";
+}
+
 }  // namespace splatcut

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <deque>
+#include <functional>
 #include <string>
 
 namespace splatcut {
@@ -19,6 +20,9 @@ const Message* shown_message(const std::deque<Message>& messages, double now_s);
 // Adds what is known of an answer only later to the newest message: what is of the same object behind it,
 // else as a line of its own. Returns false, and adds nothing, where that message is not shown.
 bool add_to_shown(Message::Kind kind, const std::string& text, double now_s, std::deque<Message>* messages);
+// A text that does not fit loses sentences behind its first, which says what was done: as few as do, so that
+// the last, which says what is to be noted, stays if it can. The first stays also where it does not fit.
+std::string shortened(const std::string& text, const std::function<bool(const std::string&)>& fits);
 
 // Requests that only the interface can fulfil.
 enum class UiRequest {

@@ -71,7 +71,10 @@ bool has_scene_extension(const std::filesystem::path& path) {
 SceneFormat input_format_from_name(const std::filesystem::path& path) {
   const SceneFormat* format = find_format(path);
   if (format && format->read) return *format;
-  throw Error(path.string(), "the file extension is none of " + spoken_extensions(read_formats(), "and"));
+  std::vector<std::string> known;
+  for (const SceneFormat& read : read_formats())
+    for (const std::string_view ending : endings_of(read)) known.emplace_back(ending);
+  throw Error(path.string(), "the file extension is none of " + spoken_list(known, "and"));
 }
 
 SceneFormat output_format_from_name(const std::filesystem::path& path) {

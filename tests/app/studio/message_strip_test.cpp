@@ -48,6 +48,21 @@ TEST_CASE("messages: what is known of an answer later stands beside it, or alone
   CHECK(messages.size() == 1);
 }
 
+TEST_CASE("messages: one that has no room keeps its first sentence, and its last if it can") {
+  const std::string first = "Mug: 12,345 Gaussians cut out in 0.4 s", last = "Two sides are in doubt",
+                    middle = "what stands between says little";
+  const auto within = [](std::size_t letters) {
+    return [letters](const std::string& shown) { return shown.size() <= letters; };
+  };
+  const std::string whole = first + "; " + middle + "\n" + middle + ". " + last;
+  CHECK(shortened(whole, within(whole.size())) == whole);
+  CHECK(shortened(whole, within(whole.size() - 1)) == first + " ... " + middle + ". " + last);
+  CHECK(shortened(whole, within(70)) == first + " ... " + last);
+  CHECK(shortened(whole, within(50)) == first + " ...");
+  CHECK(shortened(whole, within(5)) == first + " ...");
+  CHECK(shortened(first, within(5)) == first);
+}
+
 TEST_CASE("messages: the answer to a click is shown with what the sides say of it, and with the edges") {
   Hands hands = hands_on_sample();
   hands.app.click(hands.app.screen_of(kOnOrange), PointerButton::kLeft);

@@ -282,6 +282,31 @@ TEST_CASE("keyboard: in the export dialog, Tab comes by every button") {
   CHECK(std::set(round.items.begin(), round.items.end()).size() == round.items.size());
 }
 
+TEST_CASE("keyboard: Tab passes over the picture of the export dialog, and comes to Export before Cancel") {
+  for (const int width : {1040, 760}) {  // the picture beside the fields, or a small one among them
+    CAPTURE(width);
+    Hands hands;
+    hands.app->resize({width, kHandsHeight}, 1);
+    hands.app.key('E', {.ctrl = true});
+    hands.app.frames(3);
+    REQUIRE(hands.app.interface_state().export_open);
+    const UiRect dialog = hands.app.window("###export");
+    const Round round = round_by_tab(hands, {});
+    CHECK(std::ranges::count(round.items, ImHashStr("##preview", 0, GImGui->NavWindow->ID)) == 0);
+    const auto place = [&](std::string_view name) {
+      for (const ShownItem& item : hands.app.interface_state().items)
+        if (item.name == name && dialog.contains(item.min))
+          return std::ranges::find(round.corners, Corner(item.min.x, item.min.y));
+      return round.corners.end();
+    };
+    const auto pressed = place("Export"), cancelled = place("Cancel");
+    REQUIRE(pressed != round.corners.end());
+    REQUIRE(cancelled != round.corners.end());
+    CHECK(pressed + 1 == cancelled);
+    CHECK(cancelled->first < pressed->first);  // they stand where they stood
+  }
+}
+
 TEST_CASE(
     "keyboard: Enter and Space press what Tab has marked; Esc, the mouse and arrows take the mark away") {
   Hands hands;

@@ -314,3 +314,46 @@ TEST_CASE("ui: a tooltip covers no other button of its bar, and lies within the 
     CHECK(tool->Min.x >= view.min.x);
   }
 }
+
+TEST_CASE("ui: in a small window the bar of other meanings says that Esc keeps what was taken") {
+  HeadlessApp app(640, 480);
+  app.interface_state().hint_wanted = false;
+  app.open(kSample);
+  REQUIRE(app.settle());
+  app.click(app.screen_of({400, 210}));
+  REQUIRE(app.settle());
+  app.frames(2);
+  REQUIRE(app.studio().clicks().offer());
+  const std::string& words = app.interface_state().offer_words;
+  for (const float width : {640.0f, 570.0f, 540.0f}) {  // a narrow one for two meanings is 640 for four
+    CAPTURE(width);
+    app->resize({width, 480}, 1);
+    app.frames(2);
+    CAPTURE(words);
+    CHECK(words.find("what else this can mean") != std::string::npos);
+    CHECK(words.find("Esc: keep this one") != std::string::npos);
+  }
+}
+
+TEST_CASE("ui: in a window of 640 by 480 a message keeps its first words") {
+  HeadlessApp app(640, 480);
+  app.interface_state().hint_wanted = false;
+  app.open(kSample);
+  REQUIRE(app.settle());
+  app.click(app.screen_of(kOnApple));
+  REQUIRE(app.settle());
+  app.click(app.screen_of(kOnOrange));
+  REQUIRE(app.settle());
+  app.click(app.screen_of(kOnOrange), PointerButton::kRight);
+  REQUIRE(app.settle());
+  app.move({1, 1});
+  app.frames(2);
+  const std::string& whole = app.studio().messages().back().text;
+  const std::string& shown = app.interface_state().message_text;
+  CAPTURE(whole);
+  CAPTURE(shown);
+  REQUIRE(app.interface_state().message.size().x > 0);
+  CHECK(whole.size() > 40);
+  CHECK(shown.substr(0, 20) == whole.substr(0, 20));
+  CHECK(shown.size() < whole.size());  // else this shows nothing
+}

@@ -183,3 +183,24 @@ TEST_CASE("left work: beside a scene that of other scenes stands behind one row"
   app.press_item("/scroll", {"###others"});
   for (const char* capture : {"\nfox", "\ncup2", "\ncup3", "\ncup4"}) CHECK(shown(capture));
 }
+
+TEST_CASE("left work: how much other scenes have is read in a small window, too") {
+  const ScratchFolder folder("left_counted");
+  for (int i = 2; i < 5; ++i)
+    leave_work(folder, fmt::format("cup{}", i), fmt::format("autosave.{}.splatcut.json", i));
+  HeadlessApp app(640, 480, 1, with_state(folder));
+  app.open(kSmallSample);
+  REQUIRE(app.settle());
+  app.frames(2);
+  const auto& items = app.interface_state().items;
+  const auto row = std::ranges::find_if(
+      items, [](const ShownItem& i) { return i.name.find("other scenes") != std::string::npos; });
+  REQUIRE(row != items.end());
+  CAPTURE(row->name);
+  CHECK(row->name.find('3') != std::string::npos);
+  app->interface().make_current();
+  const ImFont* body = app->interface().theme().body;
+  const float words = body->CalcTextSizeA(body->FontSize, 1e6f, 0, row->name.c_str()).x;
+  const float panel_end = app.window("side/scroll").max.x - ImGui::GetStyle().ScrollbarSize;
+  CHECK(row->min.x + ImGui::GetTreeNodeToLabelSpacing() + words <= panel_end + 1);
+}

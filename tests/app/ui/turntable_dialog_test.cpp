@@ -157,6 +157,33 @@ TEST_CASE("dialogs: the turntable goes where the last export went, and asks befo
   }
 }
 
+TEST_CASE(
+    "dialogs: a proposed turntable is numbered where a file of its own name exists, not one of another") {
+  const ScratchFolder folder("turntable_names");
+  HeadlessApp app(760, 420);
+  REQUIRE(cut_out_apple(app, kSmallSample));
+  app.studio().apply(Export{{ExportWhat::kObject, SceneFormat::kPly, folder / "apple.ply"}});
+  REQUIRE(app.settle());
+  std::filesystem::create_directories(folder / "small_sample_turntable");
+  UiState& state = app.interface_state();
+  const UiRect button = app.button(icon::kFilm);
+  app.click(0.5f * (button.min + button.max));
+  app.frames(3);
+  REQUIRE(state.turntable_open);
+  const auto name = [&] { return std::filesystem::path(state.turntable.path).filename().string(); };
+  CHECK(name() == "small_sample_turntable_2");
+  app.press_item("###turntable", {"Animated WebP"});
+  CHECK(name() == "small_sample_turntable.webp");
+  std::ofstream(folder / "small_sample_turntable.webp") << "mine";
+  app.press_item("###turntable", {"Pictures"});
+  CHECK(name() == "small_sample_turntable_2");
+  app.press_item("###turntable", {"Animated WebP"});
+  CHECK(name() == "small_sample_turntable_2.webp");
+  state.turntable.path = (folder / "mine.webp").string();  // typed: it stays
+  app.press_item("###turntable", {"Pictures"});
+  CHECK(name() == "mine");
+}
+
 TEST_CASE("dialogs: leaving while an export is written asks, and Stay lets it be written") {
   const ScratchFolder folder("leave_while_written");
   HeadlessApp app(760, 420);

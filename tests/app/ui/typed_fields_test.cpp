@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <string>
@@ -105,6 +106,64 @@ TEST_CASE("dialogs: keys that are pressed and released between two frames count,
   app.frames(4);
   REQUIRE(app.settle());
   CHECK(std::filesystem::exists(folder / "pressed.ply"));
+}
+
+TEST_CASE("dialogs: Tab right after letters comes after them, also behind one with Shift") {
+  HeadlessApp app(1040, 600);
+  REQUIRE(cut_out_apple(app, kSmallSample));
+  UiState& state = app.interface_state();
+  app.key('E', {.ctrl = true});
+  app.frames(3);
+  const std::filesystem::path before = state.exporting.path;
+  // As they come while a frame takes long: all between two of them, `_` with Shift.
+  const auto tap = [&](int code, unsigned letter) {
+    app->handle(KeyChanged{code, true, false, {}});
+    if (letter) app->handle(TextTyped{letter});
+    app->handle(KeyChanged{code, false, false, {}});
+  };
+  for (const char c : std::string("burger")) tap(std::toupper(c), static_cast<unsigned>(c));
+  app->handle(KeyChanged{key::kLeftShift, true, false, {}});
+  app->handle(KeyChanged{'-', true, false, {.shift = true}});
+  app->handle(TextTyped{'_'});
+  app->handle(KeyChanged{'-', false, false, {.shift = true}});
+  app->handle(KeyChanged{key::kLeftShift, false, false, {.shift = true}});
+  for (const char c : std::string("keys")) tap(std::toupper(c), static_cast<unsigned>(c));
+  tap(key::kTab, 0);
+  app.frames(12);
+  CHECK(std::filesystem::path(state.exporting.path) == before.parent_path() / "burger_keys.ply");
+  CHECK_FALSE(ImGui::GetIO().WantTextInput);  // it went on
+  CHECK(state.marked);
+  CHECK(app->interface().dialog_open());
+}
+
+TEST_CASE(
+    "dialogs: what is typed right after Tab is for the field that Tab comes to, and Enter for its button") {
+  HeadlessApp app(1040, 600);
+  REQUIRE(cut_out_apple(app, kSmallSample));
+  UiState& state = app.interface_state();
+  app.key('E', {.ctrl = true});
+  app.frames(3);
+  const auto tap = [&](int code, unsigned letter = 0) {
+    app->handle(KeyChanged{code, true, false, {}});
+    if (letter) app->handle(TextTyped{letter});
+    app->handle(KeyChanged{code, false, false, {}});
+  };
+  app.type_into("###export", {"##x"}, "");
+  for (const char number : {'4', '5', '6'}) {
+    if (number != '4') tap(key::kTab);
+    tap(number, static_cast<unsigned>(number));
+  }
+  tap(key::kTab);
+  app.frames(20);
+  const glm::vec3 in_file = state.exporting.format.axes.position(state.exporting.placement.move);
+  CHECK(in_file == glm::vec3(4, 5, 6));
+  app.type_into("###export", {"##path"}, "/nowhere/mine");
+  tap(key::kTab);
+  tap(key::kEnter);
+  app.frames(12);
+  CHECK_FALSE(app.studio().exporting());
+  CHECK_FALSE(state.export_open);
+  CHECK(app.window("###files").size().x > 0);  // the button behind the name, and not Export
 }
 
 TEST_CASE("panels: a number is typed in the unit it is shown in") {

@@ -47,6 +47,20 @@ TEST_CASE("formats: names differ, every extension finds its row, lists follow fr
     CHECK_THROWS_AS(output_format_from_name(read_only), Error);
 }
 
+TEST_CASE("formats: that an extension is unknown is said with every ending that is read") {
+  std::string says;
+  try {
+    input_format_from_name("scene.blend");
+  } catch (const Error& error) {
+    says = error.what();
+  }
+  CHECK(says.find("the file extension is none of .ply, ") != std::string::npos);
+  for (const char* ending : {".glb", ".gltf", ".ksplat", ".sog", "meta.json"}) {
+    CAPTURE(ending);
+    CHECK(says.find(ending) != std::string::npos);
+  }
+}
+
 TEST_CASE("formats: every reader has a case that runs under the sanitizers") {
   const std::string labels = text_of(project_folder() + "/tests/quick_tests.cmake");
   for (const SceneFormat& format : read_formats())
