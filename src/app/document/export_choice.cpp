@@ -89,7 +89,8 @@ std::string whose_text(const Document& document, ExportWhat what) {
   std::string others;
   std::size_t count = 0;
   for (const ObjectItem& other : document.objects) {
-    if (other.id == object->id || (!other.cut && !other.hand)) continue;
+    if (other.id == object->id || (!other.cut && !other.hand) || is_part_of(document, other, object->id))
+      continue;
     if (++count <= kMostNamed) others += (others.empty() ? "" : ", ") + other.name;
   }
   if (count == 0) return {};

@@ -53,7 +53,7 @@ std::filesystem::path typed_in(const std::filesystem::path& folder, const std::f
 std::filesystem::path target_of(const ExportChoice& choice);
 
 // Of whom the file is where there are several objects: what is left of a scene without one of them still
-// holds the others. Empty: there is no other, or it is of all.
+// holds the others, but for its parts. Empty: there is no other, or it is of all.
 std::string whose_text(const Document& document, ExportWhat what);
 
 // What is known, before an export, of the edges of the objects that it is about.

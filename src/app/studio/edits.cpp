@@ -225,8 +225,8 @@ void Edits::perform(const SelectColour& c) {
 
 void Edits::require_gaussian(std::int32_t gaussian) const {
   ws_.require_scene();
-  if (gaussian < 0 || static_cast<std::size_t>(gaussian) >= ws_.gaussians())
-    throw Error("", "There is no such Gaussian");
+  if (gaussian < 0) throw Error("", "There is nothing in that place", "Click on something that can be seen");
+  if (static_cast<std::size_t>(gaussian) >= ws_.gaussians()) throw Error("", "There is no such Gaussian");
 }
 
 void Edits::perform(const PickColour& c) {

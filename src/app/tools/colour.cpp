@@ -7,8 +7,10 @@ namespace {
 
 template <class Select>
 void click_colour(ToolHand& hand) {
-  const auto point = hand.state.right() ? std::nullopt : hand.context.pick(hand.at_px);
-  if (point) hand.ask(Select{point->gaussian, hand.operation()});
+  constexpr std::int32_t kNothing = -1;  // is refused with a word
+  if (hand.state.right()) return;
+  const auto point = hand.context.pick(hand.at_px);
+  hand.ask(Select{point ? point->gaussian : kNothing, hand.operation()});
 }
 
 }  // namespace

@@ -71,10 +71,7 @@ bool has_scene_extension(const std::filesystem::path& path) {
 SceneFormat input_format_from_name(const std::filesystem::path& path) {
   const SceneFormat* format = find_format(path);
   if (format && format->read) return *format;
-  std::vector<std::string> known;
-  for (const SceneFormat& read : read_formats())
-    for (const std::string_view ending : endings_of(read)) known.emplace_back(ending);
-  throw Error(path.string(), "the file extension is none of " + spoken_list(known, "and"));
+  throw Error(path.string(), "the file extension is none of " + spoken_endings(read_formats(), "and"));
 }
 
 SceneFormat output_format_from_name(const std::filesystem::path& path) {

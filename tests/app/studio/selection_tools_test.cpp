@@ -13,6 +13,20 @@
 using namespace splatcut;
 using namespace splatcut::testing;
 
+TEST_CASE("hands: the eyedropper and the flood say where there is nothing to go by") {
+  Hands hands = hands_on_sample();
+  hands.app.key('I');
+  REQUIRE(hands.app.settle());
+  const std::size_t steps = hands.studio().history().entries().size();
+  for (const int tool : {'C', 'G'}) {
+    hands.app.key(tool);
+    hands.app.click(hands.app.screen_of(kOnMug));  // the apple is alone
+    REQUIRE(hands.app.settle());
+    CHECK(hands.said().starts_with("There is nothing in that place"));
+  }
+  CHECK(hands.studio().history().entries().size() == steps);
+}
+
 TEST_CASE("hands: the eyedropper takes one colour everywhere, the flood where it hangs together") {
   Hands hands = hands_on_sample(false);
   REQUIRE(hands.app.settle());
