@@ -107,3 +107,23 @@ TEST_CASE("exports: the dialog promises a number, and that nothing is lost, only
   CHECK(loss_text(choice, rows, {}, plan).empty());
   CHECK(numbers_text(choice) == "Which object a Gaussian belongs to is kept in a .ply alone.");
 }
+
+TEST_CASE("exports: of several objects the dialog says whose file it is, and who stays in the rest") {
+  Document document;
+  CHECK(whose_text(document, ExportWhat::kRest).empty());
+  const Flags some = make_flags({1, 0});
+  add_object(&document).cut = some;
+  CHECK(whose_text(document, ExportWhat::kObject).empty());
+  CHECK(whose_text(document, ExportWhat::kRest).empty());
+  add_object(&document).cut = some;
+  add_object(&document);  // nothing is in it yet
+  document.active = document.objects[1].id;
+  CHECK(whose_text(document, ExportWhat::kObject) == "Of Object 2 alone.");
+  CHECK(whose_text(document, ExportWhat::kRest) == "All but Object 2: Object 1 stays in it.");
+  for (int i = 0; i < 4; ++i) add_object(&document).hand = some;
+  document.active = document.objects[1].id;
+  CHECK(whose_text(document, ExportWhat::kRest) ==
+        "All but Object 2: Object 1, Object 4, Object 5 and 2 more stay in it.");
+  CHECK(whose_text(document, ExportWhat::kAllObjects).empty());
+  CHECK(whose_text(document, ExportWhat::kScene).empty());
+}

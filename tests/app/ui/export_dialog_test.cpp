@@ -316,26 +316,6 @@ TEST_CASE(
   CHECK(target_of(choice) == folder / "objects");
 }
 
-TEST_CASE("exports: of several objects the dialog says whose file it is, and who stays in the rest") {
-  Document document;
-  CHECK(whose_text(document, ExportWhat::kRest).empty());
-  const Flags some = make_flags({1, 0});
-  add_object(&document).cut = some;
-  CHECK(whose_text(document, ExportWhat::kObject).empty());
-  CHECK(whose_text(document, ExportWhat::kRest).empty());
-  add_object(&document).cut = some;
-  add_object(&document);  // nothing is in it yet
-  document.active = document.objects[1].id;
-  CHECK(whose_text(document, ExportWhat::kObject) == "Of Object 2 alone.");
-  CHECK(whose_text(document, ExportWhat::kRest) == "All but Object 2: Object 1 stays in it.");
-  for (int i = 0; i < 4; ++i) add_object(&document).hand = some;
-  document.active = document.objects[1].id;
-  CHECK(whose_text(document, ExportWhat::kRest) ==
-        "All but Object 2: Object 1, Object 4, Object 5 and 2 more stay in it.");
-  CHECK(whose_text(document, ExportWhat::kAllObjects).empty());
-  CHECK(whose_text(document, ExportWhat::kScene).empty());
-}
-
 TEST_CASE("export dialog: cancelled it leaves clean edges as they were, exported as they are there") {
   const ScratchFolder folder("switch_kept");
   Hands hands;
