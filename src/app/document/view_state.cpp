@@ -7,6 +7,19 @@ ViewState turned_over(ViewState view, DisplayMode mode) {
   return view;
 }
 
+ViewState turned_hide(ViewState view, ObjectId chosen) {
+  if (view.display == DisplayMode::kHide) std::erase(view.hidden, chosen);
+  return turned_over(view, DisplayMode::kHide);
+}
+
+ViewState turned_eye(ViewState view, ObjectId object, ObjectId chosen) {
+  const bool shows_again = hides(view, object, chosen);
+  if (object == chosen && view.display == DisplayMode::kHide) view.display = DisplayMode::kWhole;
+  std::erase(view.hidden, object);
+  if (!shows_again) view.hidden.push_back(object);
+  return view;
+}
+
 ViewState turned_side_by_side(ViewState view) {
   const DisplayMode before = view.display;
   view.display = before == DisplayMode::kIsolate       ? DisplayMode::kBeforeAfter
@@ -45,7 +58,10 @@ const char* label_of(const ViewState& view, const ShownObject& object) {
            : object.filled                  ? "Without the object, its hole filled  (H: back)"
            : object.outlined                ? "Without it; outlined: ground no view saw  (H: back)"
                                             : "Without the object  (H: back)";
-  return view.heat ? "Likelihood: blue rest, red object  (M: back)" : nullptr;
+  if (view.heat) return "Likelihood: blue rest, red object  (M: back)";
+  return view.display == DisplayMode::kWhole && !view.hidden.empty()
+             ? "Without hidden objects  (Shift+H: back)"
+             : nullptr;
 }
 
 }  // namespace splatcut

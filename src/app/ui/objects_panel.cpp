@@ -57,6 +57,7 @@ void object_menu(UiContext& ui, const ObjectItem& object) {
   }
   if (entry("New part of this object")) ui.ask(NewObject{object.id});
   if (entry("Duplicate")) ui.ask(DuplicateObject{object.id});
+  if (entry("Tint", "", object.tinted)) ui.ask(TintObject{object.id, !object.tinted});
   merge_menu(ui, object, locked);
   if (entry("Split into connected parts", first_of({locked, empty}))) ui.ask(SplitObject{object.id});
   if (entry("Separate in place", empty)) ui.ask(SeparateObject{object.id});
@@ -124,9 +125,12 @@ void object_row(UiContext& ui, const ObjectItem& object) {
     }
   }
   ImGui::SameLine(width - kIconsWidth + 12);
-  if (flat_icon(ui, object.visible ? icon::kEye : icon::kEyeOff, object.visible,
-                object.visible ? "Tint is shown" : "Tint is hidden"))
-    ui.ask(ShowObject{object.id, !object.visible});
+  const ObjectId chosen = ui.studio.document().active;
+  const bool hidden = hides(ui.studio.view(), object.id, chosen);
+  if (flat_icon(
+          ui, fmt::format("{}###eye", hidden ? icon::kEyeOff : icon::kEye).c_str(), !hidden,
+          hidden ? "Hidden in the scene. Press to show it" : "Hide it in the scene. Exports still have it"))
+    ui.ask(SetView{turned_eye(ui.studio.view(), object.id, chosen)});
   ImGui::SameLine(0, 0);
   if (flat_icon(ui, object.locked ? icon::kLock : icon::kUnlock, object.locked,
                 object.locked
@@ -176,6 +180,8 @@ void objects_panel(UiContext& ui) {
   if (const ObjectItem* active = ui.studio.document().active_object())
     wrapped_muted(ui, ui.studio.gaussians_of(active->id) == 0 && active->views.empty()
                           ? fmt::format("{} is empty: click it in the picture.", active->name)
+                      : hides_chosen(ui.studio.view(), active->id)
+                          ? fmt::format("Clicks and strokes go to {}, which is hidden.", active->name)
                           : fmt::format("Clicks and strokes go to {}.", active->name));
   exported_file(ui);
 }
