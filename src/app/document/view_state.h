@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "app/document/document.h"
@@ -83,13 +84,14 @@ ViewState turned_fill_hole(ViewState view);
 
 // What is known of the object that a pane shows.
 struct ShownObject {
+  std::string name;
   bool clean = false;                  // drawn with clean edges
   bool heat = false, looking = false;  // by how many views it was seen is known; is being looked for
   bool filled = false;                 // the hole that it leaves is filled
   bool outlined = false;               // that hole has an outline, or the ground that no view showed
 };
-// The label of a pane that shows something else than the scene as it is; null: it needs none.
-const char* label_of(const ViewState& view, const ShownObject& object);
+// The label of a pane that shows something else than the scene as it is; empty: it needs none.
+std::string label_of(const ViewState& view, const ShownObject& object);
 
 // True if the scene is shown without the object.
 inline bool hides(const ViewState& view, ObjectId object, ObjectId chosen) {

@@ -72,7 +72,7 @@ void object_menu(UiContext& ui, const ObjectItem& object) {
 }
 
 // An icon without a frame.
-bool flat_icon(UiContext& ui, const char* symbol, bool lit, const char* tip) {
+bool flat_icon(UiContext& ui, const char* symbol, bool lit, const std::string& tip) {
   ImGui::PushStyleColor(ImGuiCol_Button, {0, 0, 0, 0});
   ImGui::PushStyleColor(ImGuiCol_Text, lit ? ui.theme.colour.text : ui.theme.colour.muted);
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {3, 5});
@@ -133,9 +133,7 @@ void object_row(UiContext& ui, const ObjectItem& object) {
     ui.ask(SetView{turned_eye(ui.studio.view(), object.id, chosen)});
   ImGui::SameLine(0, 0);
   if (flat_icon(ui, object.locked ? icon::kLock : icon::kUnlock, object.locked,
-                object.locked
-                    ? "Locked: nothing changes it, and no other object takes what it has. Press to unlock"
-                    : "Lock it: then nothing changes it, and no other object takes what it has"))
+                tip_of_lock(ui.studio.document(), object)))
     ui.ask(LockObject{object.id, !object.locked});
   ImGui::SameLine(0, 0);
   if (flat_icon(ui, icon::kMore, true, "More")) ImGui::OpenPopup("more");
@@ -169,6 +167,19 @@ void exported_file(UiContext& ui) {
 }
 
 }  // namespace
+
+// A part stays within its whole, locked or not.
+std::string tip_of_lock(const Document& document, const ObjectItem& object) {
+  const ObjectItem* whole = document.find(object.within);
+  const std::string but =
+      whole && !whole->locked ? fmt::format(" but a change of {}, of which it is a part", whole->name) : "";
+  return fmt::format(
+      fmt::runtime(object.locked ? "Locked: nothing changes it{}, and no other object takes what it "
+                                   "has. Press to unlock"
+                                 : "Lock it: then nothing changes it{}, and no other object takes "
+                                   "what it has"),
+      but);
+}
 
 void objects_panel(UiContext& ui) {
   if (!section(ui, "Objects")) return;

@@ -96,18 +96,18 @@ void draw_message(const UiContext& ui, const UiRect& area) {
 }
 
 // Small labels of two panes.
-void pane_label(const UiContext& ui, const ImVec2& at, const char* text) {
+void pane_label(const UiContext& ui, const ImVec2& at, const std::string& text) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  const ImVec2 size = ImGui::CalcTextSize(text);
+  const ImVec2 size = ImGui::CalcTextSize(text.c_str());
   list.AddRectFilled(at, {at.x + size.x + 16, at.y + size.y + 8}, packed(ui.theme.colour.panel, 0.85f), 5);
-  list.AddText({at.x + 8, at.y + 4}, packed(ui.theme.colour.text), text);
+  list.AddText({at.x + 8, at.y + 4}, packed(ui.theme.colour.text), text.c_str());
 }
 
 // In the middle of a pane without a picture.
 void coming_label(const UiContext& ui, const UiRect& pane, const std::string& text) {
   const ImVec2 size = ImGui::CalcTextSize(text.c_str());
   const glm::vec2 at = 0.5f * (pane.min + pane.max - glm::vec2(size.x + 16, size.y + 8));
-  pane_label(ui, vec(at), text.c_str());
+  pane_label(ui, vec(at), text);
 }
 
 using OutlineWorld = std::vector<std::pair<glm::vec3, glm::vec3>>;
@@ -127,9 +127,20 @@ const OutlineWorld* ground_outline(const Studio& studio) {
   return ground && !ground->outline_world.empty() ? &ground->outline_world : nullptr;
 }
 
-const char* mode_label(const Studio& studio) {
+// Whole letters of a name that is longer than what leaves room for the rest of a label.
+std::string beginning_of(const std::string& name, std::size_t most) {
+  if (name.size() <= most) return name;
+  while (most > 0 && (static_cast<unsigned char>(name[most]) & 0xC0) == 0x80) --most;
+  return name.substr(0, most) + "...";
+}
+
+std::string mode_label(const Studio& studio) {
+  constexpr std::size_t kMostOfName = 24;
   const CleanObject* clean = studio.viewport().clean(0).get();
-  return label_of(studio.view(), {.clean = clean && clean->report.cleaned,
+  const ObjectItem* object = studio.document().active_object();
+  const std::string name = object ? object->name : "the object";
+  return label_of(studio.view(), {.name = beginning_of(name, kMostOfName),
+                                  .clean = clean && clean->report.cleaned,
                                   .heat = studio.viewport().style(0).heat != nullptr,
                                   .looking = studio.seen_views().looking(),
                                   .filled = shows_hole_filled(studio),
@@ -318,7 +329,7 @@ std::vector<UiRect> viewport_pane(UiContext& ui, const UiRect& area, ImTextureID
   }
   ImGui::PushClipRect(vec(area.min), {area.min.x + pane_width, area.max.y}, true);
   const float top = area.min.y + covered_top(ui) + 12;
-  const float below_label = panes == 2 || mode_label(studio) ? 40.0f : 0.0f;
+  const float below_label = panes == 2 || !mode_label(studio).empty() ? 40.0f : 0.0f;
   const ImVec2 offers_at = {area.min.x + 12, top + below_label};
   const float offers_end = area.min.x + pane_width - 12;
   const auto offer = offer_bar(ui, offers_at, offers_end);
@@ -343,7 +354,7 @@ std::vector<UiRect> viewport_pane(UiContext& ui, const UiRect& area, ImTextureID
     pane_label(ui, {area.min.x + pane_width + 12, top},
                clean && clean->report.cleaned ? "Object, edges cleaned" : "Object");
     pane_label(ui, {area.min.x + 12, top}, compares ? "Object as it is  (B: back)" : "Scene");
-  } else if (const char* label = mode_label(studio)) {
+  } else if (const std::string label = mode_label(studio); !label.empty()) {
     pane_label(ui, {area.min.x + 12, top}, label);
   }
   float above_axes = area.min.y + covered_top(ui);
