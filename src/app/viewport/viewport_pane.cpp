@@ -344,6 +344,7 @@ std::vector<UiRect> viewport_pane(UiContext& ui, const UiRect& area, ImTextureID
       {area.min + glm::vec2(pane_width * static_cast<float>(studio.viewport().drag_pane()), 0), area.max});
   draw_points(ui, area);
   draw_brush_ring(ui, area);
+  draw_looking(ui, area);
   if (!studio.cursor_px()) draw_cursor_sign(ui, area);
   ImGui::PopClipRect();
   if (panes == 2) {
