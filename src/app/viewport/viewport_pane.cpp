@@ -39,7 +39,8 @@ void banner(const UiContext& ui, const ImVec2& at, const char* symbol, const ImV
   list.AddText(nullptr, 0, {at.x + 34, at.y + 8}, packed(ui.theme.colour.text), text.c_str(), nullptr, wrap);
 }
 
-// How many of the active object's Gaussians, or of a sample of them, lie there on the screen.
+// What lies there on the screen: of the active object's Gaussians, or of a sample of them, how many, and as
+// much again for each badge and each dot of a click.
 std::size_t covers(const UiContext& ui, const UiRect& picture, const UiRect& rect) {
   const Studio& studio = ui.studio;
   if (!studio.scene()) return 0;
@@ -57,11 +58,20 @@ std::size_t covers(const UiContext& ui, const UiRect& picture, const UiRect& rec
     const ImVec2 at = place(camera.pixel_from_camera(seen));
     inside += rect.contains({at.x, at.y});
   }
+  constexpr float kBadge = 11;  // points, of its radius
+  std::vector<glm::vec2> marks = ui.state.badges;
+  for (const StrokeMark& mark : studio.viewport().marks()) {
+    const ImVec2 at = place(mark.at_px);
+    marks.emplace_back(at.x, at.y);
+  }
+  const UiRect near{rect.min - kBadge, rect.max + kBadge};
+  for (const glm::vec2& at : marks) inside += near.contains(at) ? kMost : 0;
   return inside;
 }
 
-// In the lower corner that covers less of the object as the message comes; there it stays.
-void draw_message(const UiContext& ui, const UiRect& area) {
+// In the corner that covers least as the message comes, a lower one if it covers nothing; there it stays.
+// top: where the upper ones begin, under what lies over the picture.
+void draw_message(const UiContext& ui, const UiRect& area, float top) {
   const ImVec2 pointer = ImGui::GetIO().MousePos;
   const bool whole = std::exchange(ui.state.message, {}).contains({pointer.x, pointer.y});
   const Message* shown = shown_message(ui.studio.messages(), ui.studio.clock_s());
@@ -76,12 +86,17 @@ void draw_message(const UiContext& ui, const UiRect& area) {
   const std::string text = shortened(
       message.text, [&](const std::string& said) { return banner_size(said, wrap).y <= most_height; });
   const glm::vec2 size = banner_size(text, wrap);
-  const glm::vec2 left(area.min.x + kMargin, area.max.y - size.y - kMargin),
-      right(std::max(left.x, area.max.x - size.x - kMargin), left.y);
-  if (std::exchange(ui.state.message_s, message.time_s) != message.time_s)
-    ui.state.message_at_right =
-        covers(ui, area, {right, right + size}) < covers(ui, area, {left, left + size});
-  const glm::vec2 at = ui.state.message_at_right ? right : left;
+  const float left = area.min.x + kMargin, right = std::max(left, area.max.x - size.x - kMargin),
+              low = area.max.y - size.y - kMargin, high = std::min(low, top + kMargin);
+  const std::array<glm::vec2, 4> corners = {{{left, low}, {right, low}, {left, high}, {right, high}}};
+  if (std::exchange(ui.state.message_s, message.time_s) != message.time_s) {
+    std::array<std::size_t, 4> covered;
+    std::ranges::transform(corners, covered.begin(), [&](const glm::vec2& at) {
+      return covers(ui, area, {at, at + size});
+    });
+    ui.state.message_place = static_cast<std::size_t>(std::ranges::min_element(covered) - covered.begin());
+  }
+  const glm::vec2 at = corners[ui.state.message_place];
   ui.state.message = {at, at + size};
   ui.state.message_text = text;
   banner(ui, vec(at),
@@ -296,12 +311,13 @@ std::optional<UiRect> first_run_hint(UiContext& ui, const UiRect& area) {
 
 std::vector<UiRect> viewport_pane(UiContext& ui, const UiRect& area, ImTextureID gpu_picture[2]) {
   std::vector<UiRect> covered;
+  ui.state.badges.clear();
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const Studio& studio = ui.studio;
   list.AddRectFilled(vec(area.min), vec(area.max), packed(ui.theme.colour.panel_low));
   if (!studio.scene()) {
     start_page(ui, area);
-    draw_message(ui, area);
+    draw_message(ui, area, area.max.y);  // in a lower corner
     return covered;
   }
   const int panes = studio.viewport().panes();
@@ -370,7 +386,10 @@ std::vector<UiRect> viewport_pane(UiContext& ui, const UiRect& area, ImTextureID
     covered.push_back(*rect);
     if (rect->max.y > 0.5f * (area.min.y + area.max.y)) for_message.max.y = rect->min.y;
   }
-  draw_message(ui, for_message);
+  float under = top + below_label;
+  for (const UiRect& rect : covered)
+    if (rect.min.y < 0.5f * (area.min.y + area.max.y)) under = std::max(under, rect.max.y);
+  draw_message(ui, for_message, under);
   if (studio.cursor_px()) {  // no message hides what keys move
     draw_cursor_sign(ui, area);
     draw_key_cursor(ui, area);
