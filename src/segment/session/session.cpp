@@ -39,16 +39,19 @@ Session::Session(SessionScene scene)
 Session::~Session() = default;
 Session::Session(Session&& other) noexcept = default;
 
+// Of a path on the rest those of sampled(stroke).
 const StrokeHits& Session::hits(const CameraStroke& stroke, const Job& job) {
   CameraStroke any_size = stroke;
   any_size.stroke.size_step = 0;
-  std::string key = key_of_strokes(request_of({&any_size, 1}, {}));
+  const std::string key = key_of_strokes(request_of({&any_size, 1}, {}));
   const auto known = hits_.find(key);
   if (known != hits_.end()) return known->second;
   constexpr std::size_t kMostHits = 4096;
   if (hits_.size() >= kMostHits) hits_.clear();
-  StrokeHits found = stroke_hits({*scene_.cloud, nullptr, whole_.blocks.get()}, stroke, job);
-  if (job.cancelled()) key.clear();  // it may be incomplete: asked again next time
+  if (stroke.stroke.label == SeedLabel::kRest) any_size.stroke = sampled(stroke);
+  StrokeHits found = stroke_hits({*scene_.cloud, nullptr, whole_.blocks.get()}, any_size, job);
+  if (job.cancelled())
+    return cancelled_hits_ = std::move(found);  // it may be incomplete: asked again next time
   return hits_[key] = std::move(found);
 }
 
@@ -90,16 +93,12 @@ CutRequest Session::in_place(const CutRequest& request, const Answered& answered
   for (const StrokedView& view : asked) {
     StrokedView here{view.camera, {}, there->seen.in(there->near, view.seen)};
     for (Stroke stroke : view.strokes) {
-      if (stroke.label == SeedLabel::kRest) {
-        const StrokeHits& at = hits({view.camera, stroke, view.seen}, job);
-        const auto lies_here = [&](const auto& hit) { return hit && contains(box, *hit); };
-        std::vector<glm::vec2> inside;
-        for (std::size_t i = 0; i < stroke.points_px.size(); ++i)
-          if (stroke.is_box() ? std::ranges::any_of(at, lies_here) : lies_here(at[i]))
-            inside.push_back(stroke.points_px[i]);
-        stroke.points_px = std::move(inside);
+      if (stroke.label != SeedLabel::kRest) {
+        if (!stroke.points_px.empty()) here.strokes.push_back(std::move(stroke));
+        continue;
       }
-      if (!stroke.points_px.empty()) here.strokes.push_back(std::move(stroke));
+      const CameraStroke said{view.camera, std::move(stroke), view.seen};
+      for (Stroke& piece : pieces_in(box, said, hits(said, job))) here.strokes.push_back(std::move(piece));
     }
     local.strokes.push_back(std::move(here));
   }

@@ -14,7 +14,8 @@
 //      are offered where the likeliest is answered, and found again in the larger cell by their labels. So
 //      are other sizes of every stroke, each a step from the one before, in the cell in which that is
 //      answered.
-// Strokes on the rest that hit nothing of the cell change nothing: there is no object there. Cuts from pixels
+// Strokes on the rest that hit nothing of the cell change nothing: there is no object there. A path on the
+// rest counts as the pieces of it that hit the cell. Cuts from pixels
 // alone (the baselines) look at the whole scene. What a request asks for among some of the Gaussians is asked
 // of a session on these (session_among.h), as other files of a scene change no answer of before.
 // The result is a function of scene, request and settings alone, kept steps or not, whatever was cut before,
@@ -151,6 +152,7 @@ class Session {
   std::vector<StageTime> prepared_;            // stages of what the cut under way has prepared
   std::map<std::string, Answered> places_;     // of strokes so far, by their bytes
   std::map<std::string, StrokeHits> hits_;     // of single strokes
+  StrokeHits cancelled_hits_;                  // the last that were not finished
   std::stop_source* ends_if_large_ = nullptr;  // ends a cut of CutReach::kSmall; null: none is under way
 };
 
