@@ -48,7 +48,7 @@ RasterOutput ProjectedView::draw(const RasterOptions& options, const Job& job) c
 
 const ProjectedView& KeptViews::view(const Camera& camera, bool coloured, const Job& job) {
   const auto found =
-      std::ranges::find_if(views_, [&](const auto& v) { return same_camera(v->camera(), camera); });
+      std::ranges::find_if(views_, [&](const auto& v) { return same_picture(v->camera(), camera); });
   if (found != views_.end() && (*found)->complete() && ((*found)->coloured() || !coloured)) {
     std::rotate(found, found + 1, views_.end());
     return *views_.back();

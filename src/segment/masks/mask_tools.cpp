@@ -129,7 +129,7 @@ PixelRect labelled_rectangle(const GaussianCloud& cloud, const Camera& camera,
   for (std::size_t g = 0; g < cloud.size(); ++g) {
     if (!labels[g]) continue;
     const glm::vec3 at = camera.camera_from_world(cloud.position[g]);
-    if (at.z < cloud.near_plane) continue;
+    if (at.z < near_plane_for(cloud, camera)) continue;
     const glm::vec3& scale = cloud.scale[g];
     const float sigma_px =
         std::max(camera.fx_px, camera.fy_px) / at.z * bend * std::max({scale.x, scale.y, scale.z});

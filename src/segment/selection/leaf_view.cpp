@@ -79,7 +79,7 @@ std::vector<float> alone_px(const GaussianCloud& cloud, const Camera& camera) {
   const glm::vec3 eye = camera.centre_world();
   for_each_index(cloud.size(), [&](std::size_t g) {
     const float depth = camera.camera_from_world(cloud.position[g]).z;
-    if (!(depth > cloud.near_plane)) return;
+    if (!(depth > near_plane_for(cloud, camera))) return;
     const glm::vec3 along = glm::conjugate(cloud.rotation[g]) * glm::normalize(cloud.position[g] - eye);
     const glm::vec3 s = cloud.scale[g];
     const float shadow = glm::length(glm::vec3(s.y * s.z, s.x * s.z, s.x * s.y) * along);

@@ -64,7 +64,7 @@ StrokeReplay::KnownView* StrokeReplay::view(const Drawer& drawer, const CameraSt
                                             const Job& job) {
   const Camera camera = limited_to_width(said.camera, width_px);
   const auto known = std::ranges::find_if(views_, [&](const KnownView& v) {
-    return same_camera(v.view.camera, camera) && same_set(v.seen, said.seen);
+    return same_picture(v.view.camera, camera) && same_set(v.seen, said.seen);
   });
   if (known != views_.end()) {
     views_.splice(views_.begin(), views_, known);

@@ -29,7 +29,7 @@ class Key {
   }
   void camera(const Camera& c) {
     for (const int v : {c.width_px, c.height_px}) number(v);
-    for (const float v : {c.fx_px, c.fy_px, c.cx_px, c.cy_px}) number(v);
+    for (const float v : {c.fx_px, c.fy_px, c.cx_px, c.cy_px, c.most_near_plane}) number(v);
     numbers({&c.camera_from_world_rotation[0][0], 9});
     numbers({&c.camera_from_world_translation.x, 3});
   }
