@@ -10,7 +10,7 @@
 // selection (selection/stroke_replay.h): step 2 then holds views left out and smoothness alone.
 // Where a request gives masks of several views, n in all, neither parts nor trimming have a say, and v0 and
 // the weights of neighbours are those of the settings times min(1, 3/n), but for the paper's presets. Step 1
-// is kept: what changes only step 2 costs only step 2.
+// is kept, of each stroke: what changes only step 2 costs only step 2, for each of them.
 // Step 3, where strokes alone say what is meant, by parts: a correction changes Gaussians to its own side
 // only. A Gaussian that the last stroke on the object would take from it, or one on the rest would add, keeps
 // the label that it has without this stroke. So the answer to n strokes builds on that to n - 1, which is
@@ -107,7 +107,9 @@ class LocalSession {
   CutResult solved(const CutRequest& request, const CutSettings& settings, const Job& job,
                    const OnSnapshot& on_snapshot);
   Answer* kept_answer(const CutRequest& request, const CutSettings& settings);
-  std::vector<std::uint8_t> labels_of(const CutRequest& request, const CutSettings& settings, const Job& job);
+  std::vector<std::uint8_t> labels_of(const CutRequest& request, const CutSettings& settings, const Job& job,
+                                      std::vector<StageTime>* stages);
+  std::size_t kept_bytes() const;
 
   LocalScene scene_;
   std::optional<FlowGraph> graph_;
