@@ -94,6 +94,13 @@ std::span<const Mask> ClickSelection::meanings() const {
   return offers_ ? std::span<const Mask>(offers_->masks) : std::span<const Mask>();
 }
 
+std::size_t ClickSelection::bytes() const {
+  std::size_t bytes = labels_.size() + said_.size() + by_colour_.size() + 2 * selected_.object.size();
+  for (const Mask& mask : size_masks()) bytes += mask.size();
+  for (const Mask& mask : meanings()) bytes += mask.size();
+  return bytes;
+}
+
 // Offers the likeliest meaning, then the next likely ones that look clearly different. Each is settled where
 // the trees disagree.
 void ClickSelection::note_offers(const LeafView& view, const Answers& found,

@@ -60,6 +60,19 @@ std::size_t StrokeReplay::view_bytes() const {
   return bytes;
 }
 
+std::size_t StrokeReplay::bytes() const {
+  std::size_t bytes = view_bytes();
+  for (const auto& selection : after_) bytes += selection ? selection->bytes() : 0;
+  return bytes;
+}
+
+void StrokeReplay::forget() {
+  views_.clear();
+  done_.clear();
+  after_.clear();
+  last_.reset();
+}
+
 StrokeReplay::KnownView* StrokeReplay::view(const Drawer& drawer, const CameraStroke& said, int width_px,
                                             const Job& job) {
   const Camera camera = limited_to_width(said.camera, width_px);

@@ -216,6 +216,17 @@ LocalSession::Kept& LocalSession::from_reference(const Asked& asked, const Job& 
   return kept_.front();
 }
 
+std::size_t LocalSession::bytes() const {
+  std::size_t bytes = views_.bytes() + strokes_.bytes() + kept_bytes() + bytes_of(cancelled_.result);
+  for (const Answer& answer : answers_) bytes += answer.labels.size() + answer.key.size();
+  return bytes;
+}
+
+void LocalSession::forget_views() {
+  views_.clear();
+  strokes_.forget();
+}
+
 std::size_t LocalSession::kept_bytes() const {
   std::size_t bytes = 0;
   for (const Kept& k : kept_)

@@ -77,8 +77,9 @@ class LocalSession {
     if (!job.cancelled()) ready.make_ready();
   }
 
-  // Of what is kept of strokes: their views, which grow with the pictures, and answers.
-  std::size_t stroke_bytes() const { return strokes_.view_bytes() + answers_.size() * scene_.cloud->size(); }
+  // Of all that is kept beside the scene and its solver. What forget_views() leaves: cuts and answers.
+  std::size_t bytes() const;
+  void forget_views();  // the pictures of views, and selections on them: they are drawn again when asked for
 
  private:
   struct Kept {  // a cut from the reference

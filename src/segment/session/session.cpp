@@ -63,6 +63,7 @@ Session::Local* Session::local(const Place& place, const CutSettings& settings, 
   });
   if (known != locals_.end()) {
     locals_.splice(locals_.begin(), locals_, known);
+    keep_within_bytes();
     return &locals_.front();
   }
   if (ends_if_large_ && gaussians_in(place) > scene_.most_ahead) {
@@ -73,12 +74,29 @@ Session::Local* Session::local(const Place& place, const CutSettings& settings, 
   if (job.cancelled()) return nullptr;
   locals_.emplace_front(std::move(made), whole_);
   StageClock(&prepared_).book(locals_.front().near.prepared->stages);
-  std::size_t bytes = locals_.front().bytes();
-  for (auto l = std::next(locals_.begin()); l != locals_.end();) {
-    bytes += l->bytes();
-    l = bytes > scene_.most_bytes ? locals_.erase(l) : std::next(l);
-  }
+  keep_within_bytes();
   return &locals_.front();
+}
+
+// Of the neighbourhoods used longest ago first the views go, which are soon drawn again, then they
+// themselves.
+void Session::keep_within_bytes() {
+  std::size_t bytes = kept_bytes();
+  for (auto l = locals_.rbegin(); bytes > scene_.most_bytes && l != std::prev(locals_.rend()); ++l) {
+    bytes -= l->bytes();
+    l->session.forget_views();
+    bytes += l->bytes();
+  }
+  while (bytes > scene_.most_bytes && locals_.size() > 1) {
+    bytes -= locals_.back().bytes();
+    locals_.pop_back();
+  }
+}
+
+std::size_t Session::kept_bytes() const {
+  std::size_t bytes = 0;
+  for (const Local& l : locals_) bytes += l.bytes();
+  return bytes;
 }
 
 // The request as the neighbourhood sees it.
@@ -219,6 +237,7 @@ CutResult Session::cut_anywhere(const CutRequest& request, const CutSettings& se
   result = in_scene(*there, std::move(result));
   StageClock(&prepared_).book(result.stages);
   result.stages = std::move(prepared_);
+  keep_within_bytes();
   return result;
 }
 

@@ -15,11 +15,12 @@
 //      are other sizes of every stroke, each a step from the one before, in the cell in which that is
 //      answered.
 // Strokes on the rest that hit nothing of the cell change nothing: there is no object there. A path on the
-// rest counts as the pieces of it that hit the cell. Cuts from pixels
-// alone (the baselines) look at the whole scene. What a request asks for among some of the Gaussians is asked
-// of a session on these (session_among.h), as other files of a scene change no answer of before.
+// rest counts as the pieces of it that hit the cell. Cuts from pixels alone (the baselines) look at the whole
+// scene. What a request asks for among some of the Gaussians is asked of a session on these
+// (session_among.h), as other files of a scene change no answer of before.
 // The result is a function of scene, request and settings alone, kept steps or not, whatever was cut before,
-// on any number of threads. The neighbourhoods used last are kept within most_bytes. One call at a time.
+// on any number of threads. The neighbourhoods used last are kept within most_bytes, with all that is known
+// of cuts in them; of those used longest ago the pictures go first. One call at a time.
 #pragma once
 
 #include <list>
@@ -100,6 +101,7 @@ class Session {
                                      std::span<const std::uint8_t> before = {});
 
   std::size_t neighbourhoods() const { return locals_.size(); }  // that are kept
+  std::size_t kept_bytes() const;  // of these, with all that is kept of cuts in them
 
  private:
   using Local = KeptNeighbourhood;
@@ -137,6 +139,7 @@ class Session {
               const CutSettings& settings, const Job& job);
   void keep_offer(const CutRequest& request, const Answered& answered, const CutSettings& settings,
                   const Job& job, CutResult* result);
+  void keep_within_bytes();
   Local* local(const Place& place, const CutSettings& settings, const Job& job);
   CutRequest in_place(const CutRequest& request, const Answered& answered, Local* there, const Job& job);
   CutResult in_scene(const Local& there, CutResult result) const;
