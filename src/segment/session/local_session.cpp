@@ -358,11 +358,15 @@ CutResult LocalSession::cut(const CutRequest& request, const CutSettings& settin
   CutResult result = solved(request, settings, job, on_snapshot);
   StageClock(&stages).book(result.stages);
   result.stages = std::move(stages);
-  if (result.outcome != Outcome::kDone) return result;
-  for (std::size_t g = 0; g < before.size(); ++g)
-    if ((result.labels[g] != 0) != last->object) result.labels[g] = before[g];
-  obey_strokes(&result);
-  if (!kept_answer(request, settings)) answers_.push_front({key_of(request), settings, result.labels});
+  if (result.outcome == Outcome::kCancelled) return result;
+  if (result.outcome == Outcome::kDone) {
+    for (std::size_t g = 0; g < before.size(); ++g)
+      if ((result.labels[g] != 0) != last->object) result.labels[g] = before[g];
+    obey_strokes(&result);
+  }
+  if (!kept_answer(request, settings))
+    answers_.push_front({key_of(request), settings,
+                         result.outcome == Outcome::kDone ? result.labels : std::vector<std::uint8_t>()});
   if (answers_.size() > kMostAnswers) answers_.pop_back();
   return result;
 }
@@ -380,6 +384,16 @@ std::vector<std::uint8_t> LocalSession::meant(const CutRequest& request, const C
       .replay({*scene_.cloud, &views_}, strokes_in_order(request),
               replay_options(request, settings, scene_.prepared->model), job)
       .labels();
+}
+
+bool LocalSession::at_last_size(const CutRequest& request, const CutSettings& settings, bool larger,
+                                const Job& job) {
+  const std::vector<CameraStroke> strokes = strokes_in_order(request);
+  if (strokes.empty() || in_replay_order(strokes).back().earlier) return false;  // its sizes are another's
+  const ClickSelection& meant = strokes_.replay(
+      {*scene_.cloud, &views_}, strokes, replay_options(request, settings, scene_.prepared->model), job);
+  if (meant.sizes() == 0) return false;
+  return !job.cancelled() && meant.size() == (larger ? meant.sizes() - 1 : 0);
 }
 
 std::vector<float> LocalSession::likelihood_of(const CutRequest& request, const CutSettings& settings,

@@ -68,6 +68,10 @@ class LocalSession {
   std::vector<std::uint8_t> meant(const CutRequest& request, const CutSettings& settings,
                                   const Job& job = {});
 
+  // True if the last stroke takes the largest of its sizes, or the smallest: a step beyond changes nothing.
+  // False where a stroke that was made before the first one on the object is applied last.
+  bool at_last_size(const CutRequest& request, const CutSettings& settings, bool larger, const Job& job = {});
+
   // The graph with the settings' number of neighbours, built at the first cut. Cancelled: must not be used.
   const FlowGraph& graph(const CutSettings& settings, const Job& job = {});
 
@@ -89,7 +93,7 @@ class LocalSession {
     std::string sums_key;  // masks that `sums` was added up from
     std::optional<MaskedSums> sums;
   };
-  struct Answer {  // the labels of a cut, after step 3
+  struct Answer {  // the labels of a cut, after step 3; empty: nothing was found
     std::string key;
     CutSettings settings;
     std::vector<std::uint8_t> labels;

@@ -127,6 +127,8 @@ class Session {
                                            const Job& job);
   Answered stepped(const CutRequest& request, const CutSettings& settings, Answered answered,
                    const std::string& own_key, int step, const Box& must_hold, const Job& job);
+  bool at_last_size(const CutRequest& request, const CutSettings& settings, const Answered& answered,
+                    bool larger, const Job& job);
   Answered place_after(const CutRequest& request, const CutSettings& settings, Answered there,
                        const Box& must_hold, const Job& job);
   std::optional<Answered> place_of(const CutRequest& request, const CutSettings& settings, const Job& job);

@@ -6,7 +6,9 @@
 #include <vector>
 
 #include "scene/still_life/still_life.h"
+#include "segment/session/local_session.h"
 #include "segment/session/session.h"
+#include "segment/superpoints/observing_views.h"
 
 using namespace splatcut;
 
@@ -88,4 +90,27 @@ TEST_CASE("earlier strokes: another smoothness, or a view left out, asks none of
   const CutResult without = session.cut(request, settings);
   CHECK_FALSE(looked(without));
   CHECK(without.labels == Session(opened).cut(request, settings).labels);
+}
+
+TEST_CASE("earlier strokes: that they mean nothing is known, too") {
+  auto [opened, request] = EightClicks();
+  const GaussianCloud& cloud = *opened.cloud;
+  const Camera& camera = request.strokes.front().camera;
+  LocalSession session({.cloud = opened.cloud,
+                        .prepared = std::make_shared<const PreparedScene>(
+                            prepare_scene(cloud, observing_views(cloud, camera, {0, -1, 0}, {}))),
+                        .capture = {}});
+  for (Stroke& stroke : request.strokes.front().strokes) {
+    stroke.label = SeedLabel::kObject;
+    stroke.points_px.front() = {-500, -500};
+  }
+  int asked = 0;
+  const Job watched{.stop = {}, .on_progress = [&](std::string_view stage, double) {
+                      asked += stage == "earlier strokes";
+                    }};
+  CHECK(session.cut(request, CutSettings(), watched).outcome == Outcome::kNothingFound);
+  CHECK(asked == EightClicks::kStrokes - 1);
+  asked = 0;
+  CHECK(session.cut(request, CutSettings(), watched).outcome == Outcome::kNothingFound);
+  CHECK(asked == 0);
 }
