@@ -9,7 +9,7 @@ namespace splatcut {
 
 namespace {
 
-constexpr std::size_t kMostKept = 6;  // selections, for undo: 2 bytes a Gaussian each
+constexpr std::size_t kMostKept = 6;  // selections, for undo: 3 bytes a Gaussian each, and masks
 
 bool same_stroke(const CameraStroke& a, const CameraStroke& b) {
   return same_camera(a.camera, b.camera) && same_set(a.seen, b.seen) && a.stroke.kind == b.stroke.kind &&

@@ -205,10 +205,15 @@ LocalSession::Kept& LocalSession::from_reference(const Asked& asked, const Job& 
     so_far.labels = meant(asked.request, asked.first_settings, job);
     if (!job.cancelled()) on_snapshot(CutPhase::kParts, so_far);
   }
+  std::vector<StageTime> stages;
+  if (!graph_stands(asked.first_settings))
+    StageClock(&stages).time("graph", [&] { graph(asked.first_settings, job); });
   const CutScene scene = scene_for(asked.request, asked.first_settings, job);
   if (!job.cancelled())
     made.result =
         cut_from_reference({scene, *asked.reference, asked.request, asked.first_settings, job}, on_snapshot);
+  StageClock(&stages).book(made.result.stages);
+  made.result.stages = std::move(stages);
   if (made.result.outcome == Outcome::kCancelled) return cancelled_ = std::move(made);
   kept_.push_front(std::move(made));
   if (kept_.size() > kMostKept) kept_.pop_back();

@@ -52,7 +52,7 @@ struct SessionScene {
   PrepareOptions prepare{};
   std::size_t most_gaussians = 150'000;             // in the first cell
   std::size_t most_ahead = 250'000;                 // prepared for a cut of CutReach::kSmall
-  std::size_t most_bytes = std::size_t{768} << 20;  // of neighbourhoods kept; the one in use may be larger
+  std::size_t most_bytes = std::size_t{768} << 20;  // kept; the neighbourhood in use may be larger
 };
 
 // Where a cut may go. kSmall: it prepares no neighbourhood of more than SessionScene::most_ahead, and

@@ -80,6 +80,7 @@ TEST_CASE("earlier strokes: another smoothness, or a view left out, asks none of
     return std::ranges::any_of(result.stages, [](const StageTime& s) { return s.name == "first mask"; });
   };
   CHECK(looked(first));
+  CHECK(std::ranges::any_of(first.stages, [](const StageTime& s) { return s.name == "graph"; }));
   for (const float smoothness : {3.0f, 4.0f}) {
     settings.smoothness = smoothness;
     const CutResult smoother = session.cut(request, settings);
