@@ -238,7 +238,7 @@ Picture read_picture(const std::filesystem::path& path) {
 
 std::optional<glm::ivec2> picture_size(const std::filesystem::path& path) {
   const MappedFile file(path);
-  const std::string_view bytes(reinterpret_cast<const char*>(file.bytes().data()), file.bytes().size());
+  const std::string_view bytes = file.text();
   if (is_jpeg(bytes)) return jpeg_size(bytes);
   constexpr std::size_t kSizeAt = 16, kSizeEnd = 24;
   if (!is_png(bytes) || bytes.size() < kSizeEnd) return {};

@@ -150,7 +150,7 @@ void write_ply_subset(AtomicFile& out, const Scene& scene, std::span<const std::
     throw Error(scene.path.string(), "has a property object_id already, where objects are to be numbered");
   const std::span<const std::byte> rows = element_bytes(scene.path, source.bytes(), *vertex);
   const std::string text =
-      changed_header({reinterpret_cast<const char*>(source.bytes().data()), header.bytes},
+      changed_header(source.text().substr(0, header.bytes),
                      gaussians.size() + (changed ? changed->size() : 0), !object_ids.empty(), options.up);
   out.write(std::as_bytes(std::span(text)));
   out.write(source.bytes().subspan(header.bytes, vertex->data_begin - header.bytes));

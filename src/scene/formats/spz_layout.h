@@ -24,6 +24,7 @@
 #include "scene/formats/axes.h"
 #include "scene/formats/losses.h"
 #include "scene/formats/scene_file.h"
+#include "scene/formats/spz_axes.h"
 
 namespace splatcut::spz {
 
