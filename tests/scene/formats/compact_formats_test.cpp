@@ -296,3 +296,23 @@ TEST_CASE("spz: a stray that makes all positions coarse is said, and named where
   CHECK(what_is_said(said).find("near the origin") == std::string::npos);
   CHECK_THROWS_WITH_AS(said(), doctest::Contains("Choose another format"), Error);
 }
+
+TEST_CASE("sog: Gaussians of a wide scene that move by more than half their size are said") {
+  const Folder folder;
+  Scene scene;
+  scene.cloud = varied_cloud(2000, 0);
+  for (glm::vec3& scale : scene.cloud.scale) scale = glm::vec3(0.02f);
+  const auto said = [&] { return save_scene(folder / "a.sog", scene, {}, SceneFormat::kSog).loss; };
+  CHECK(said().find("their size") == std::string::npos);
+  for (glm::vec3& p : scene.cloud.position) p *= 1000;
+  const std::string lost = said();
+  CAPTURE(lost);
+  const Scene got = load_scene(folder / "a.sog");  // in the order of ours
+  int moved = 0;
+  for (std::size_t g = 0; g < got.cloud.size(); ++g)
+    moved += std::ranges::none_of(scene.cloud.position, [&](const glm::vec3& p) {
+      return glm::distance(p, got.cloud.position[g]) <= 0.01f;
+    });
+  CHECK(moved > 1000);
+  CHECK(mentions(lost, {fmt::format("{} Gaussians move by more than half their size", moved).c_str()}));
+}
