@@ -112,11 +112,6 @@ json add_quats(const SogInput& in, SogPictures* pictures) {
   return {{"files", {"quats.webp"}}};
 }
 
-glm::vec3 log_scale_for_sog(const glm::vec3& scale) {
-  constexpr float kSmallest = 1e-20f;  // a flat Gaussian has 0
-  return glm::log(glm::max(scale, kSmallest));
-}
-
 // Three numbers of each Gaussian by a codebook of all of them. value: of a Gaussian.
 template <class Value>
 Codebook fill_by_codebook(const SogInput& in, const Value& value, Image<Rgba8>* image) {
@@ -134,7 +129,7 @@ Codebook fill_by_codebook(const SogInput& in, const Value& value, Image<Rgba8>* 
 json add_scales(const SogInput& in, SogPictures* pictures) {
   Image<Rgba8>& image = pictures->add("scales", picture_for(in.size()));
   const Codebook codebook = fill_by_codebook(
-      in, [&](std::uint32_t g) { return log_scale_for_sog(in.cloud.scale[g]); }, &image);
+      in, [&](std::uint32_t g) { return glm::log(never_flat(in.cloud.scale[g])); }, &image);
   return {{"codebook", codebook}, {"files", {"scales.webp"}}};
 }
 

@@ -316,3 +316,18 @@ TEST_CASE("sog: Gaussians of a wide scene that move by more than half their size
   CHECK(moved > 1000);
   CHECK(mentions(lost, {fmt::format("{} Gaussians move by more than half their size", moved).c_str()}));
 }
+
+TEST_CASE("splat: a flat Gaussian is written as thin, not as nothing") {
+  const Folder folder;
+  Scene scene;
+  scene.cloud = varied_cloud(20, 0);
+  for (glm::vec3& scale : scene.cloud.scale) scale = {0.01f, 0.02f, 0};
+  save_scene(folder / "a.splat", scene, {}, SceneFormat::kSplat);
+  const std::string bytes = text_of(folder / "a.splat");
+  for (std::size_t row = 0; row < 20; ++row) {
+    float thin = 0;
+    std::memcpy(&thin, bytes.data() + row * 32 + 20, sizeof thin);
+    CHECK(thin > 0);
+    CHECK(thin < 1e-15f);
+  }
+}
