@@ -1,0 +1,47 @@
+// Command lines that would do something else than they say: each is refused, or said.
+#include <doctest/doctest.h>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "app/console/user_folders.h"
+#include "core/png_file.h"
+#include "cut_program.h"
+
+using namespace splatcut::testing;
+using nlohmann::json;
+
+namespace {
+
+std::string cut_of_scene(const std::string& options) {
+  return "cut " + still_life().scene + " " + still_life().camera + " " + options;
+}
+
+}  // namespace
+
+TEST_CASE("a scene behind --click or --box is the scene") {
+  const StillLife& life = still_life();
+  const Result result =
+      life.place.run("cut " + life.camera + " --edges keep --write labels -o behind --click " +
+                     life.click_on("apple") + " " + life.scene);
+  CHECK_MESSAGE(result.code == 0, result.err);
+  refused("cut " + life.camera + " --box 9,9,9,9 " + life.scene, {}, {"box"});
+  refused(cut_of_scene("--click [670,490]"), {}, {"--click [670,490]", "is not a pixel"});
+}
+
+TEST_CASE("compare sees alpha and 16 bits") {
+  const Workplace& place = still_life().place;
+  using splatcut::Image, splatcut::Rgba8, splatcut::write_png;
+  write_png(place / "clear.png", Image<Rgba8>(4, 4));
+  write_png(place / "black4.png", Image<Rgba8>(4, 4, {0, 0, 0, 255}));
+  Image<std::uint16_t> grey(4, 4, 30000);
+  write_png(place / "grey_a.png", grey);
+  grey.at(1, 2) = 30040;
+  write_png(place / "grey_b.png", grey);
+  CHECK(place.run("compare clear.png black4.png").code == 1);
+  CHECK(place.run("compare grey_a.png grey_b.png").code == 1);
+  CHECK(place.run("compare grey_a.png grey_b.png --max-diff 1").code == 0);
+  for (const char* same : {"clear.png", "black4.png", "grey_a.png"})
+    CHECK(place.run("compare " + std::string(same) + " " + same).code == 0);
+}
