@@ -30,6 +30,15 @@ TEST_CASE("a scene behind --click or --box is the scene") {
   refused(cut_of_scene("--click [670,490]"), {}, {"--click [670,490]", "is not a pixel"});
 }
 
+TEST_CASE("an empty value is refused: a variable of a script may be without one") {
+  for (const char* option : {"--cameras", "--camera", "--size", "--camera-pos", "--spz-axes"})
+    refused("render " + still_life().scene, {option, ""}, {option, "is empty"});
+  for (const char* option : {"--seeds", "--scale-by", "--click", "--mask", "--masks", "--preset", "--text"})
+    refused(cut_of_scene(""), {option, ""}, {option, "is empty"});
+  refused("render " + still_life().scene + " --cameras=", {}, {"--cameras", "is empty"});
+  refused("render", {""}, {"is empty"});
+}
+
 TEST_CASE("compare sees alpha and 16 bits") {
   const Workplace& place = still_life().place;
   using splatcut::Image, splatcut::Rgba8, splatcut::write_png;
