@@ -39,6 +39,24 @@ TEST_CASE("an empty value is refused: a variable of a script may be without one"
   refused("render", {""}, {"is empty"});
 }
 
+TEST_CASE("names of other letters are those of files, and two of them are two") {
+  const Workplace& place = still_life().place;
+  const std::string at = still_life().click_on("apple"), x = at.substr(0, at.find(',')),
+                    y = at.substr(at.find(',') + 1);
+  const auto named = [&](const std::string& name) {
+    return R"({"name": ")" + name + R"(", "clicks": [{"x": )" + x + R"(, "y": )" + y + "}]}";
+  };
+  const std::string red = "\xe7\xba\xa2", blue = "\xe8\x93\x9d";  // one letter each
+  place.write("letters.json", R"({"objects": [)" + named(red) + ", " + named(blue) + "]}");
+  refused(cut_of_scene("--seeds letters.json"), {},
+          {"objects after it"});  // both are the apple: no name is taken
+  place.write("jobs.jsonl", json{{"name", red}, {"scene", "a"}, {"click", "1,1"}}.dump() + "\n" +
+                                json{{"name", blue}, {"scene", "a"}, {"click", "1,1"}}.dump() + "\n");
+  const Result batch = place.run("batch jobs.jsonl -o letters_of_jobs --json");
+  CHECK(batch.err.find("is that of line") == std::string::npos);
+  CHECK(batch.out.find("is that of line") == std::string::npos);
+}
+
 TEST_CASE("compare sees alpha and 16 bits") {
   const Workplace& place = still_life().place;
   using splatcut::Image, splatcut::Rgba8, splatcut::write_png;
