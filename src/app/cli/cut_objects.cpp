@@ -106,10 +106,11 @@ std::vector<NamedSeeds> named_seeds_from_json(const json& seeds, const std::stri
   for (std::size_t i = 0; i < list.size(); ++i) {
     const std::string entry = fmt::format("{}: object {}", where, i);
     if (!list[i].is_object()) throw Error(entry, "is not an object with \"name\" and \"clicks\"");
+    refuse_unknown_seeds(list[i], entry, true);
     const std::optional<std::string> own = camera_from_json(list[i], entry);
     objects.push_back({name_of(list[i], entry), own ? own : of_all, strokes_from_json(list[i], entry),
                        choice_from_json(list[i], entry)});
-    if (objects.back().strokes.empty()) throw Error(entry, "holds neither clicks nor scribbles");
+    if (objects.back().strokes.empty()) throw Error(entry, "holds neither clicks nor boxes nor scribbles");
   }
   check_names(objects, where);
   return objects;

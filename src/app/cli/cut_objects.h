@@ -25,7 +25,8 @@ struct NamedSeeds {
   int choice = 0;  // see CutRequest
 };
 
-// {"objects": [{"name", "camera", "clicks", "scribbles", "choice"}, ...]}, strokes_from_json() of each;
+// {"objects": [{"name", "camera", "clicks", "boxes", "scribbles", "choice"}, ...]}, strokes_from_json() of
+// each;
 // "object" is read as "name", too (make-scene writes it). A "camera" beside "objects" is that of each without
 // one. Empty where there are no "objects". Throws Error naming the entry.
 std::vector<NamedSeeds> named_seeds_from_json(const nlohmann::json& seeds, const std::string& where);

@@ -19,6 +19,7 @@ void read_seeds(const std::filesystem::path& file, ObjectInput* input) {
   const bool is_text = file.native().starts_with('{');
   const std::string where = is_text ? "seeds" : file.string();
   const nlohmann::json seeds = is_text ? parse_json(where, file.native()) : json_of_file(file);
+  refuse_unknown_seeds(seeds, where);
   input->objects = named_seeds_from_json(seeds, where);
   input->strokes = strokes_from_json(seeds, where);
   if (!input->objects.empty() && !input->strokes.empty())

@@ -39,6 +39,24 @@ TEST_CASE("an empty value is refused: a variable of a script may be without one"
   refused("render", {""}, {"is empty"});
 }
 
+TEST_CASE("a misspelt field of seeds is refused, with the one that is nearest") {
+  const Workplace& place = still_life().place;
+  const auto says = [&](const json& seeds, std::initializer_list<const char*> parts) {
+    place.write("misspelt.json", seeds.dump());
+    refused(cut_of_scene("--seeds misspelt.json"), {}, parts);
+  };
+  const json click = {{"x", 9}, {"y", 9}};
+  says({{"click", {click}}}, {"it has no field \"click\"", "\"clicks\" is one"});
+  says({{"clicks", {{{"x", 9}, {"y", 9}, {"lable", "rest"}}}}},
+       {"a click has no field \"lable\"", "\"label\""});
+  says({{"clicks", {click}}, {"boxes", {{{"corner", 1}}}}}, {"a box has no field \"corner\"", "\"corners\""});
+  says({{"scribbles", {{{"points", json::array()}, {"width", 3}}}}},
+       {"a scribble", "\"width\"", "radius_px"});
+  says({{"objects", {{{"name", "a"}, {"clicks", {click}}, {"choise", 2}}}}},
+       {"object 0", "\"choise\"", "\"choice\""});
+  says({{"objects", {{{"name", "a"}}}}}, {"holds neither clicks nor boxes nor scribbles"});
+}
+
 TEST_CASE("names of other letters are those of files, and two of them are two") {
   const Workplace& place = still_life().place;
   const std::string at = still_life().click_on("apple"), x = at.substr(0, at.find(',')),
