@@ -193,8 +193,9 @@ FinishedCut run_cut_in(SharedScene* shared, const CutArguments& args, const Obje
   end_progress();
   stop_if_cancelled(job, "splatcut cut");
   warn_of_choices(objects, options);
-  RunReport report{
-      scene, said, objects, {}, {}, shared->load_ms(), shared->load_ms() + ms_since(start), options.times};
+  RunReport report{scene,        said, objects,           args.cutout,
+                   {},           {},   shared->load_ms(), shared->load_ms() + ms_since(start),
+                   options.times};
   CutoutFolder to{folder,       scene,       session.blocks(),          chosen.up_world,
                   chosen.given, args.cutout, args.cutout.writes("rest")};
   if (placement != ExportPlacement{})

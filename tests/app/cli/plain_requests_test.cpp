@@ -57,6 +57,34 @@ TEST_CASE("a misspelt field of seeds is refused, with the one that is nearest") 
   says({{"objects", {{{"name", "a"}}}}}, {"holds neither clicks nor boxes nor scribbles"});
 }
 
+TEST_CASE("a report names the files that were written, and no others") {
+  const Workplace& place = still_life().place;
+  json objects = json::array();
+  for (const char* thing : {"apple", "mug"}) {
+    const std::string at = still_life().click_on(thing);
+    const auto comma = at.find(',');
+    objects.push_back(
+        {{"name", thing},
+         {"clicks", {{{"x", std::stoi(at.substr(0, comma))}, {"y", std::stoi(at.substr(comma + 1))}}}}});
+  }
+  objects[0]["name"] =
+      "R\xc3\xbc"
+      "be 1/2";
+  place.write("pair.json", json{{"objects", objects}}.dump());
+  const std::string cut =
+      "cut " + still_life().scene + " " + still_life().cameras + " --seeds pair.json --edges keep";
+  const Result labels = place.run(cut + " --write labels -o labels_alone");
+  REQUIRE_MESSAGE(labels.code == 0, labels.err);
+  CHECK(labels.out.find(".ply") == std::string::npos);
+  CHECK(place.files_in("labels_alone") == std::set<std::string>{"R\xc3\xbc"
+                                                                "be_1_2.labels.u8",
+                                                                "mug.labels.u8", "labels.u8", "report.json"});
+  for (const json& object : json::parse(place.text("labels_alone/report.json"))["objects"]) {
+    CHECK_FALSE(object.contains("file"));
+    CHECK(place.exists("labels_alone/" + object["labels"].get<std::string>()));
+  }
+}
+
 TEST_CASE("names of other letters are those of files, and two of them are two") {
   const Workplace& place = still_life().place;
   const std::string at = still_life().click_on("apple"), x = at.substr(0, at.find(',')),
