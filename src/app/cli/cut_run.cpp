@@ -135,6 +135,7 @@ void CutArguments::add_to(CLI::App& command) {
       ->excludes("--text");
   add_setting_options(command, &preset, &set);
   command.add_flag("--coarse", coarse, "Threshold the likelihood instead of the cut");
+  command.get_option("--coarse")->excludes("--smoothness");
   for (const char* without_effect :
        {"--mask", "--masks", "--text", "--views", "--propagate", "--refine", "--smoothness", "--coarse"})
     command.get_option("--parts-only")->excludes(without_effect);

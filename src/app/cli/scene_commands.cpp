@@ -174,6 +174,8 @@ void refuse_undrawn(const SceneArguments& args, bool with_background) {
     throw CLI::ArgumentMismatch("--labels goes with --what labels");
   if (with_background && (args.what == "depth" || args.what == "alpha"))
     throw CLI::ArgumentMismatch("--background is not seen in --what " + args.what);
+  if (!args.camera.up.empty() && !args.camera.cameras.empty() && args.camera.position.empty())
+    throw CLI::ArgumentMismatch("--camera-up turns no camera of --cameras: it goes with --camera-pos");
 }
 
 void run_render(const SceneArguments& args, const CommonOptions& common) {

@@ -103,6 +103,15 @@ TEST_CASE("names of other letters are those of files, and two of them are two") 
   CHECK(batch.out.find("is that of line") == std::string::npos);
 }
 
+TEST_CASE("options that would be without effect are refused") {
+  const StillLife& life = still_life();
+  refused("render " + life.scene + " " + life.cameras + " --camera-up 0,1,0", {}, {"--camera-up"}, 2);
+  refused(cut_of_scene("--click 9,9 --coarse --smoothness 3"), {}, {"--smoothness"}, 2);
+  for (const char* placing : {"--origin foot", "--up +y", "--scale-by 9,9,99,99,1"})
+    refused(cut_of_scene("--click 9,9 --write labels " + std::string(placing)), {},
+            {"--write names no file"});
+}
+
 TEST_CASE("compare sees alpha and 16 bits") {
   const Workplace& place = still_life().place;
   using splatcut::Image, splatcut::Rgba8, splatcut::write_png;
