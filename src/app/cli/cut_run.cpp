@@ -76,6 +76,8 @@ std::vector<CutObject> objects_of(const CutArguments& args, const ObjectInput& i
     if (Stroke* first = first_stroke(&object.request.strokes); first && args.scale != 0)
       first->size_step = args.scale;
     if (args.choice) object.request.choice = *args.choice - 1;
+    constexpr std::size_t kPixelBytes = 32;  // of what is drawn, and of the pictures made of it
+    check_picture(object.camera, kPixelBytes);
     check_inside(object.request);
   }
   return objects;

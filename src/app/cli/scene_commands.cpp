@@ -100,6 +100,11 @@ Image<std::uint8_t> grey_of(const Image<float>& alpha) {
   return grey;
 }
 
+std::size_t pixel_bytes_of(const std::string& what) {
+  if (what == "depth") return sizeof(float) + sizeof(std::uint16_t);
+  return what == "alpha" ? 1 : sizeof(Rgb8);
+}
+
 // Before a picture that takes long: so that it can be stopped.
 void say_memory(const Camera& camera, std::size_t pixel_bytes, bool quiet) {
   constexpr double kFrom = 0.25, kGb = 1e9;
@@ -137,6 +142,7 @@ void draw_view(const SceneArguments& args, const GaussianCloud& cloud, const Cam
     return whole;
   };
   const int width = camera.width_px, height = camera.height_px;
+  check_picture(camera, pixel_bytes_of(args.what));
   if (args.what == "depth")
     write_depth(output, drawn(Image<float>(width, height),
                               [](const RasterOutput& strip) { return strip.expected_depth; }));
@@ -199,12 +205,7 @@ void run_render(const SceneArguments& args, const CommonOptions& common) {
     for (const std::uint8_t l : load_labels(args.labels, scene)) colours.emplace_back(l ? 1.0f : 0.0f);
     options.colour_override = colours;
   }
-  const bool depth = args.what == "depth", alpha = args.what == "alpha";
-  say_memory(chosen.camera,
-             depth   ? sizeof(float) + sizeof(std::uint16_t)
-             : alpha ? 1
-                     : sizeof(Rgb8),
-             common.quiet);
+  say_memory(chosen.camera, pixel_bytes_of(args.what), common.quiet);
   if (args.all_cameras)
     draw_all_cameras(args, scene.cloud, chosen, options, job);
   else

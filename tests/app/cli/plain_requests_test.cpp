@@ -112,6 +112,15 @@ TEST_CASE("options that would be without effect are refused") {
             {"--write names no file"});
 }
 
+TEST_CASE("a picture that no memory holds is refused with the figure") {
+  const StillLife& life = still_life();
+  json cameras = json::parse(life.place.text(life.cameras.substr(life.cameras.find(' ') + 1)));
+  cameras[0]["width"] = cameras[0]["height"] = 131072;
+  life.place.write("vast.json", json::array({cameras[0]}).dump());
+  for (const char* command : {"render ", "cut --click 9,9 "})
+    refused(command + life.scene + " --cameras vast.json", {}, {"131072 x 131072", "GB are free", "--size"});
+}
+
 TEST_CASE("compare sees alpha and 16 bits") {
   const Workplace& place = still_life().place;
   using splatcut::Image, splatcut::Rgba8, splatcut::write_png;
