@@ -210,7 +210,11 @@ void run_render(const SceneArguments& args, const CommonOptions& common) {
     draw_all_cameras(args, scene.cloud, chosen, options, job);
   else
     draw_view(args, scene.cloud, chosen.camera, options, args.output, job);
-  if (!common.quiet) fmt::print("{}\n", args.output.string());
+  if (common.quiet) return;
+  if (args.all_cameras)
+    fmt::print("{}\n", args.output.string());
+  else
+    say_written(args.output, args.output.string() + "\n");
 }
 
 void run_convert(const SceneArguments& args, const CommonOptions& common) {
@@ -225,8 +229,9 @@ void run_convert(const SceneArguments& args, const CommonOptions& common) {
   refuse_written_inputs(args.output, scene.files);
   const SaveReport report = save_scene(args.output, scene, {}, format, {spz_version});
   if (common.quiet) return;
-  fmt::print("{}: {} Gaussians, {} bytes\n", args.output.string(), report.gaussians, report.bytes);
-  if (!report.loss.empty()) fmt::print("Lost: {}\n", report.loss);
+  say_written(args.output,
+              fmt::format("{}: {} Gaussians, {} bytes\n{}", args.output.string(), report.gaussians,
+                          report.bytes, report.loss.empty() ? "" : "Lost: " + report.loss + "\n"));
 }
 
 }  // namespace

@@ -121,6 +121,15 @@ TEST_CASE("a picture that no memory holds is refused with the figure") {
     refused(command + life.scene + " --cameras vast.json", {}, {"131072 x 131072", "GB are free", "--size"});
 }
 
+TEST_CASE("a picture into a pipe is the picture alone") {
+  const StillLife& life = still_life();
+  life.place.write("pipe.sh", splatcut_program() + " render " + life.scene + " " + life.camera +
+                                  " --size 32x24 -o /dev/stdout | cat > piped.png\n");
+  const Result result = life.place.run_program("/bin/bash", "pipe.sh");
+  CHECK(life.place.text("piped.png").ends_with(std::string("IEND\xae\x42\x60\x82")));
+  CHECK(result.err.find("/dev/stdout") != std::string::npos);
+}
+
 TEST_CASE("compare sees alpha and 16 bits") {
   const Workplace& place = still_life().place;
   using splatcut::Image, splatcut::Rgba8, splatcut::write_png;
