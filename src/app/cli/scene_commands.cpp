@@ -160,9 +160,10 @@ void draw_all_cameras(const SceneArguments& args, const GaussianCloud& cloud, co
   OutputFolder folder(args.output, args.overwrite);
   for (const Camera& given : chosen.given) {
     const std::filesystem::path name = std::filesystem::path(given.name + ".png").lexically_normal();
-    if (given.name.empty() || name.is_absolute() || *name.begin() == "..")
+    if (given.name.empty() || name.is_absolute() || *name.begin() == ".." ||
+        given.name.find('\0') != std::string::npos)
       throw Error(args.camera.cameras.string(),
-                  fmt::format("the camera \"{}\" has no name for a file", given.name));
+                  fmt::format("the camera {} has no name for a file", json_text(given.name)));
     const std::filesystem::path file = folder.file(name.string());
     if (std::filesystem::exists(file))
       throw Error(args.camera.cameras.string(), fmt::format("two cameras are called \"{}\"", given.name));

@@ -121,6 +121,15 @@ TEST_CASE("a picture that no memory holds is refused with the figure") {
     refused(command + life.scene + " --cameras vast.json", {}, {"131072 x 131072", "GB are free", "--size"});
 }
 
+TEST_CASE("a camera whose name holds a NUL is no name of a file") {
+  const StillLife& life = still_life();
+  json cameras = json::parse(life.place.text(life.cameras.substr(life.cameras.find(' ') + 1)));
+  cameras[0]["img_name"] = std::string("a\0b", 3);
+  life.place.write("nul.json", json::array({cameras[0]}).dump());
+  refused("render " + life.scene + " --cameras nul.json --all-cameras --size 32x24", {},
+          {"has no name for a file"});
+}
+
 TEST_CASE("a picture into a pipe is the picture alone") {
   const StillLife& life = still_life();
   life.place.write("pipe.sh", splatcut_program() + " render " + life.scene + " " + life.camera +
