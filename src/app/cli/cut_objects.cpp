@@ -132,6 +132,14 @@ std::vector<CutObject> objects_of(const std::vector<NamedSeeds>& seeds, const Ch
   return objects;
 }
 
+std::string fewer_meanings(const CutResult& result, int asked) {
+  if (result.choice >= static_cast<std::size_t>(asked)) return {};
+  return fmt::format(
+      "what was said first can mean {} only: this is {}, not {}",
+      result.meanings.size() <= 1 ? "one thing" : fmt::format("{} things", result.meanings.size()),
+      result.choice + 1, asked + 1);
+}
+
 void check_inside(const CutRequest& request) {
   for (const StrokedView& view : request.strokes) check_inside(view.strokes, view.camera);
 }

@@ -50,6 +50,10 @@ struct CutObject {
 std::vector<CutObject> objects_of(const std::vector<NamedSeeds>& seeds, const ChosenCamera& chosen,
                                   const CameraOptions& camera);
 
+// Sentence where what was said first has fewer meanings than the one asked for (CutRequest::choice); or
+// empty.
+std::string fewer_meanings(const CutResult& result, int asked);
+
 // Throws Error for strokes outside of their camera's picture.
 void check_inside(const CutRequest& request);
 

@@ -98,13 +98,8 @@ std::vector<EdgesReport> write_cutouts(const CutoutFolder& to, const std::vector
 // Says where there are fewer meanings than the one that was chosen.
 void warn_of_choices(const std::vector<CutObject>& objects, const CutRunOptions& options) {
   for (const CutObject& object : objects)
-    if (const CutResult& result = object.result;
-        result.choice < static_cast<std::size_t>(object.request.choice))
-      options.warn(fmt::format(
-          "{}what was said first can mean {} only: this is {}, not {}",
-          object.name.empty() ? "" : object.name + ": ",
-          result.meanings.size() <= 1 ? "one thing" : fmt::format("{} things", result.meanings.size()),
-          result.choice + 1, object.request.choice + 1));
+    if (const std::string said = fewer_meanings(object.result, object.request.choice); !said.empty())
+      options.warn((object.name.empty() ? "" : object.name + ": ") + said);
 }
 
 }  // namespace
