@@ -154,3 +154,14 @@ TEST_CASE("compare sees alpha and 16 bits") {
   for (const char* same : {"clear.png", "black4.png", "grey_a.png"})
     CHECK(place.run("compare " + std::string(same) + " " + same).code == 0);
 }
+
+TEST_CASE("without HOME nothing is kept in a folder of all") {
+  const std::string home = std::getenv("HOME") ? std::getenv("HOME") : "";
+  const std::string cache = std::getenv("XDG_CACHE_HOME") ? std::getenv("XDG_CACHE_HOME") : "";
+  ::unsetenv("HOME");
+  ::unsetenv("XDG_CACHE_HOME");
+  const std::string folder = splatcut::cache_folder();
+  if (!home.empty()) ::setenv("HOME", home.c_str(), 1);
+  if (!cache.empty()) ::setenv("XDG_CACHE_HOME", cache.c_str(), 1);
+  CHECK_MESSAGE(!folder.starts_with("/tmp"), folder);
+}
