@@ -187,6 +187,10 @@ FinishedCut run_cut_in(SharedScene* shared, const CutArguments& args, const Obje
   const ExportPlacement placement =
       placement_of(args.cutout, {scene.cloud, nullptr, &session.blocks()}, chosen.camera, job);
   stop_if_cancelled(job, "splatcut cut");
+  if (args.cutout.writes("objects") && placement == ExportPlacement{} &&  // rows are copied
+      std::ranges::count(scene.other_properties, "object_id") > 0)
+    throw Error(scene.path.string(), "has a property object_id already, where objects are to be numbered",
+                "Leave objects out of --write, or convert the scene first");
   const std::vector<std::uint8_t> owner = cut_objects(&objects, &session, settings, job);
   end_progress();
   stop_if_cancelled(job, "splatcut cut");

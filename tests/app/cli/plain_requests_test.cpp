@@ -155,6 +155,15 @@ TEST_CASE("compare sees alpha and 16 bits") {
     CHECK(place.run("compare " + std::string(same) + " " + same).code == 0);
 }
 
+TEST_CASE("object_id where objects are to be numbered is refused before the cut") {
+  const StillLife& life = still_life();
+  REQUIRE(life.place
+              .run(cut_of_scene("--edges keep --write objects -o numbered --click " + life.click_on("apple")))
+              .code == 0);
+  refused("cut numbered/objects.ply " + life.camera + " --write objects --click 0,0", {},
+          {"object_id already"});
+}
+
 TEST_CASE("without HOME nothing is kept in a folder of all") {
   const std::string home = std::getenv("HOME") ? std::getenv("HOME") : "";
   const std::string cache = std::getenv("XDG_CACHE_HOME") ? std::getenv("XDG_CACHE_HOME") : "";
