@@ -27,7 +27,8 @@ Error cannot_be_written(const fs::path& path, int error) {
   const bool full = error == ENOSPC || error == EDQUOT;
   if (error == ENAMETOOLONG)
     return {path.string(), "cannot be written: its name is too long",
-            fmt::format("Choose one of at most {} letters", NAME_MAX - std::strlen(kPart))};
+            fmt::format("Choose one of at most {} bytes: a letter beyond a to z has two to four",
+                        NAME_MAX - std::strlen(kPart))};
   return {path.string(), fmt::format("cannot be written ({})", std::strerror(error)),
           full ? "Make room there, or choose another place" : "Choose another place"};
 }

@@ -52,6 +52,7 @@ class Image {
 
 using Rgb8 = std::array<std::uint8_t, 3>;
 using Rgba8 = std::array<std::uint8_t, 4>;
+using Rgba16 = std::array<std::uint16_t, 4>;
 
 // A binary mask: 0 outside the object, kMaskObject inside.
 using Mask = Image<std::uint8_t>;

@@ -1,5 +1,5 @@
 // Arrays of plain values without initial content, in large pages where the system has them: the first touch
-// of 4 kB pages costs more than most loops over them. Internal to src/scene.
+// of 4 kB pages costs more than most loops over them.
 #pragma once
 
 #include <cstddef>

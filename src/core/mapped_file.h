@@ -19,6 +19,7 @@ class MappedFile {
   ~MappedFile();
 
   std::span<const std::byte> bytes() const { return {static_cast<const std::byte*>(data_), size_}; }
+  std::string_view text() const { return {static_cast<const char*>(data_), size_}; }
   const std::filesystem::path& path() const { return path_; }
   std::int64_t modified_ns() const { return modified_ns_; }
 
@@ -30,8 +31,13 @@ class MappedFile {
 };
 
 inline bool begins_with(const MappedFile& file, std::string_view mark) {
-  return std::string_view(reinterpret_cast<const char*>(file.bytes().data()), file.bytes().size())
-      .starts_with(mark);
+  return file.text().starts_with(mark);
+}
+
+// Whether an object of JSON may begin there: its first character that is no blank is a brace.
+inline bool begins_as_json(const MappedFile& file) {
+  const std::size_t first = file.text().find_first_not_of(" \t\r\n");
+  return first != std::string_view::npos && file.text()[first] == '{';
 }
 
 // The bytes of a file that the person named: a pipe will do. Throws Error for a folder, for more than 1 GB,

@@ -1,4 +1,5 @@
-// Loops over all elements on all cores, in chunks of fixed size. Internal to src/segment (.cpp files).
+// Loops over all elements on all cores, in chunks of fixed size. For .cpp files:
+// no header may include what reads TBB.
 #pragma once
 
 #include <tbb/parallel_for.h>

@@ -18,8 +18,14 @@ struct PictureDifference {
 
 // levels: differences up to this do not count in share_beyond.
 PictureDifference picture_difference(const Image<Rgb8>& a, const Image<Rgb8>& b, int levels = 0);
+// Of pictures with alpha, or of 16 bits: alpha is a channel, and ssim the smaller one of those on black and
+// on white. The colours are multiplied by alpha; `largest` is rounded up.
+PictureDifference picture_difference(const Image<Rgba16>& a, const Image<Rgba16>& b, int levels = 0);
 
-// Where they differ: eight times the difference of each channel.
+// Where they differ: eight times the difference of each channel, or of alpha where that is larger.
 Image<Rgb8> difference_picture(const Image<Rgb8>& a, const Image<Rgb8>& b);
+Image<Rgb8> difference_picture(const Image<Rgba16>& a, const Image<Rgba16>& b);
+
+Image<Rgba16> rgba16_of(const Image<Rgb8>& picture);  // opaque
 
 }  // namespace splatcut

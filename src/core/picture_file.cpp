@@ -225,6 +225,33 @@ Image<std::uint8_t> read_png_grey(const std::filesystem::path& path) {
   return read_png<std::uint8_t>(path, PNG_FORMAT_GRAY);
 }
 
+ExactPng read_exact_png(const std::filesystem::path& path) {
+  const std::string bytes = text_of_file(path);
+  if (!is_png(bytes)) throw Error(path.string(), "is no PNG");
+  const png_image png = described_png(path, bytes);
+  const auto width = static_cast<int>(png.width), height = static_cast<int>(png.height);
+  ExactPng exact;
+  if (png.format & PNG_FORMAT_FLAG_LINEAR) {
+    exact.rgba16 = Image<Rgba16>(width, height);
+    read_png_as(path, without_light(bytes), PNG_FORMAT_LINEAR_RGB_ALPHA, exact.rgba16.data());
+  } else if (png.format & PNG_FORMAT_FLAG_ALPHA) {
+    Image<Rgba8> straight(width, height);
+    read_png_as(path, bytes, PNG_FORMAT_RGBA, straight.data());
+    exact.rgba16 = Image<Rgba16>(width, height);
+    std::ranges::transform(straight.pixels(), exact.rgba16.pixels().begin(), [](const Rgba8& p) {
+      const auto times_alpha = [&](std::uint8_t v) {
+        return static_cast<std::uint16_t>((257u * v * p[3] + 127) / 255);
+      };
+      return Rgba16{times_alpha(p[0]), times_alpha(p[1]), times_alpha(p[2]),
+                    static_cast<std::uint16_t>(257u * p[3])};
+    });
+  } else {
+    exact.rgb8 = Image<Rgb8>(width, height);
+    read_png_as(path, bytes, PNG_FORMAT_RGB, exact.rgb8.data());
+  }
+  return exact;
+}
+
 Picture read_picture(const std::filesystem::path& path) {
   const std::string bytes = text_of_file(path);
   if (is_png(bytes)) return read_any_png(path, bytes);
@@ -238,7 +265,7 @@ Picture read_picture(const std::filesystem::path& path) {
 
 std::optional<glm::ivec2> picture_size(const std::filesystem::path& path) {
   const MappedFile file(path);
-  const std::string_view bytes(reinterpret_cast<const char*>(file.bytes().data()), file.bytes().size());
+  const std::string_view bytes = file.text();
   if (is_jpeg(bytes)) return jpeg_size(bytes);
   constexpr std::size_t kSizeAt = 16, kSizeEnd = 24;
   if (!is_png(bytes) || bytes.size() < kSizeEnd) return {};

@@ -25,6 +25,14 @@ Picture read_picture(const std::filesystem::path& path);
 Image<Rgb8> read_png_rgb(const std::filesystem::path& path);
 Image<std::uint8_t> read_png_grey(const std::filesystem::path& path);
 
+// A PNG by its numbers: as 8-bit RGB where that is all that it holds, else as 16-bit RGB with alpha, the
+// colours multiplied by it (8 bits: times 257). The other one is empty.
+struct ExactPng {
+  Image<Rgb8> rgb8;
+  Image<Rgba16> rgba16;
+};
+ExactPng read_exact_png(const std::filesystem::path& path);
+
 // Width and height of a PNG or JPEG without reading its pixels; none for other files.
 std::optional<glm::ivec2> picture_size(const std::filesystem::path& path);
 

@@ -66,3 +66,25 @@ TEST_CASE("SSIM: the mean over all rows of windows, however tall the picture") {
   }
   CHECK(picture_difference(a, b).ssim == doctest::Approx(sum / (kHeight - kWindowRows + 1)).epsilon(1e-12));
 }
+
+TEST_CASE("compare: alpha and 16 bits count, and colours that nobody sees do not") {
+  Image<Rgba16> a(20, 12, {0, 0, 0, 0}), b = a;
+  CHECK(picture_difference(a, b).largest == 0);
+  b.at(3, 4)[3] = 65535;  // opaque black
+  const PictureDifference alpha = picture_difference(a, b);
+  CHECK(alpha.largest == 255);
+  CHECK(alpha.share_beyond == doctest::Approx(1.0 / 240));
+  CHECK(alpha.psnr_db == doctest::Approx(10 * std::log10(4.0 * 240)));
+  CHECK(alpha.ssim < 0.99);
+  CHECK(difference_picture(a, b).at(3, 4) == Rgb8{255, 255, 255});
+  b = a;
+  b.at(3, 4)[0] = 40;  // of 257 to a level
+  CHECK(picture_difference(a, b).largest == 1);
+  CHECK(picture_difference(a, b, 0).share_beyond > 0);
+  CHECK(picture_difference(a, b, 1).share_beyond == 0);
+  const Image<Rgb8> one(20, 12, {10, 20, 30}), other(20, 12, {10, 21, 30});
+  const PictureDifference narrow = picture_difference(one, other),
+                          wide = picture_difference(rgba16_of(one), rgba16_of(other));
+  CHECK(narrow.largest == wide.largest);
+  CHECK(narrow.ssim == doctest::Approx(wide.ssim));
+}

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "app/cli/commands.h"
 #include "app/console/kept_inputs.h"
@@ -38,15 +39,35 @@ std::string shortfall(const CompareArguments& args, const PictureDifference& d) 
   return {};
 }
 
+struct Compared {
+  PictureDifference difference;
+  Image<Rgb8> picture;  // of it, where one is to be written
+};
+
+template <class Pixel>
+Compared compared(const CompareArguments& args, const Image<Pixel>& a, const Image<Pixel>& b) {
+  Compared both{picture_difference(a, b, args.max_diff.value_or(0)), {}};
+  if (!args.diff.empty()) both.picture = difference_picture(a, b);
+  return both;
+}
+
+// In 8 bits where neither picture holds more.
+Compared compared(const CompareArguments& args) {
+  ExactPng a = read_exact_png(args.a), b = read_exact_png(args.b);
+  if (a.rgba16.empty() && b.rgba16.empty()) return compared(args, a.rgb8, b.rgb8);
+  for (ExactPng* one : {&a, &b})
+    if (one->rgba16.empty()) one->rgba16 = rgba16_of(std::exchange(one->rgb8, {}));
+  return compared(args, a.rgba16, b.rgba16);
+}
+
 void run_compare(const CompareArguments& args, const CommonOptions& common) {
   if (!args.diff.empty()) {
     refuse_name_of_png(args.diff);
     refuse_written_inputs(args.diff, {args.a, args.b});
     check_output_file(args.diff, args.overwrite);
   }
-  const Image<Rgb8> a = read_png_rgb(args.a), b = read_png_rgb(args.b);
-  const PictureDifference d = picture_difference(a, b, args.max_diff.value_or(0));
-  if (!args.diff.empty()) write_png(args.diff, difference_picture(a, b));
+  const auto [d, picture] = compared(args);
+  if (!args.diff.empty()) write_png(args.diff, picture);
   const std::string missed = shortfall(args, d);
   if (args.json) {
     nlohmann::json out = {{"largest", d.largest},
@@ -73,7 +94,7 @@ void add_compare_command(CLI::App& program, const CommonOptions& common) {
       "difference.png\nWithout a limit every pixel must be equal.");
   command.add_option("a", args->a, "PNG")->required();
   command.add_option("b", args->b, "PNG")->required();
-  command.add_option("--max-diff", args->max_diff, "Levels of 255 that a channel may differ by")
+  command.add_option("--max-diff", args->max_diff, "Levels of 255 that a channel, or alpha, may differ by")
       ->check(CLI::Range(0, 255));
   command.add_option("--pixels", args->pixels_percent, "Percent of the pixels that may differ by more")
       ->check(within(0, 100));

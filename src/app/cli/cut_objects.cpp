@@ -106,10 +106,11 @@ std::vector<NamedSeeds> named_seeds_from_json(const json& seeds, const std::stri
   for (std::size_t i = 0; i < list.size(); ++i) {
     const std::string entry = fmt::format("{}: object {}", where, i);
     if (!list[i].is_object()) throw Error(entry, "is not an object with \"name\" and \"clicks\"");
+    refuse_unknown_seeds(list[i], entry, true);
     const std::optional<std::string> own = camera_from_json(list[i], entry);
     objects.push_back({name_of(list[i], entry), own ? own : of_all, strokes_from_json(list[i], entry),
                        choice_from_json(list[i], entry)});
-    if (objects.back().strokes.empty()) throw Error(entry, "holds neither clicks nor scribbles");
+    if (objects.back().strokes.empty()) throw Error(entry, "holds neither clicks nor boxes nor scribbles");
   }
   check_names(objects, where);
   return objects;
@@ -129,6 +130,14 @@ std::vector<CutObject> objects_of(const std::vector<NamedSeeds>& seeds, const Ch
     objects.push_back({object.name, std::move(request), seen_from, {}});
   }
   return objects;
+}
+
+std::string fewer_meanings(const CutResult& result, int asked) {
+  if (result.choice >= static_cast<std::size_t>(asked)) return {};
+  return fmt::format(
+      "what was said first can mean {} only: this is {}, not {}",
+      result.meanings.size() <= 1 ? "one thing" : fmt::format("{} things", result.meanings.size()),
+      result.choice + 1, asked + 1);
 }
 
 void check_inside(const CutRequest& request) {

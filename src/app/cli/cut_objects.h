@@ -25,7 +25,8 @@ struct NamedSeeds {
   int choice = 0;  // see CutRequest
 };
 
-// {"objects": [{"name", "camera", "clicks", "scribbles", "choice"}, ...]}, strokes_from_json() of each;
+// {"objects": [{"name", "camera", "clicks", "boxes", "scribbles", "choice"}, ...]}, strokes_from_json() of
+// each;
 // "object" is read as "name", too (make-scene writes it). A "camera" beside "objects" is that of each without
 // one. Empty where there are no "objects". Throws Error naming the entry.
 std::vector<NamedSeeds> named_seeds_from_json(const nlohmann::json& seeds, const std::string& where);
@@ -48,6 +49,10 @@ struct CutObject {
 // Throws Error if the camera of an object is not known.
 std::vector<CutObject> objects_of(const std::vector<NamedSeeds>& seeds, const ChosenCamera& chosen,
                                   const CameraOptions& camera);
+
+// Sentence where what was said first has fewer meanings than the one asked for (CutRequest::choice); or
+// empty.
+std::string fewer_meanings(const CutResult& result, int asked);
 
 // Throws Error for strokes outside of their camera's picture.
 void check_inside(const CutRequest& request);

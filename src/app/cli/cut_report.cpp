@@ -53,17 +53,18 @@ json cut_json(const CutResult& result, const std::vector<StageTime>& times, bool
   return out;
 }
 
-json entry_json(const CutObject& object, const EdgesReport& edges, std::size_t index, bool times) {
+json entry_json(const RunReport& report, std::size_t o) {
+  const CutObject& object = report.objects[o];
   const ObjectFiles files = files_of(object);
-  json entry = cut_json(object.result, object.result.stages, times);
+  json entry = cut_json(object.result, object.result.stages, report.times);
   entry.update({{"name", object.name},
-                {"index", index},
-                {"file", files.scene},
-                {"labels", files.labels},
+                {"index", o + 1},
                 {"camera", object.camera.name},
                 {"gaussians", gaussians_of(object)},
                 {"left_to_later", object.found - gaussians_of(object)},
-                {"edges", edges.json(times)}});
+                {"edges", report.edges[o].json(report.times)}});
+  if (report.options.writes("object")) entry["file"] = files.scene;
+  if (report.options.writes("labels")) entry["labels"] = files.labels;
   return entry;
 }
 
@@ -109,8 +110,7 @@ json report_json(const RunReport& report) {
   }
   out.update({{"objects", json::array()}, {"rest", {{"gaussians", report.rest.gaussians}}}});
   if (report.times) out["stages"] = {{{"name", "load"}, {"ms", report.load_ms}}};
-  for (std::size_t o = 0; o < report.objects.size(); ++o)
-    out["objects"].push_back(entry_json(report.objects[o], report.edges[o], o + 1, report.times));
+  for (std::size_t o = 0; o < report.objects.size(); ++o) out["objects"].push_back(entry_json(report, o));
   return out;
 }
 
@@ -119,7 +119,8 @@ std::string summary(const RunReport& report) {
   std::string text;
   if (!report.of_one()) {
     for (const CutObject& o : report.objects)
-      text += fmt::format("{}: {} of {} Gaussians\n", files_of(o).scene, gaussians_of(o), all);
+      text += fmt::format("{}: {} of {} Gaussians\n",
+                          report.options.writes("object") ? files_of(o).scene : o.name, gaussians_of(o), all);
     return text;
   }
   text = fmt::format("{} of {} Gaussians cut out in {:.0f} ms\n", gaussians_of(report.objects.front()), all,

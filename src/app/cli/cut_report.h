@@ -15,6 +15,7 @@ struct RunReport {
   const Scene& scene;
   const nlohmann::json& settings;
   const std::vector<CutObject>& objects;  // one without a name, or several with names
+  const CutoutOptions& options;           // which files were written
   std::vector<EdgesReport> edges = {};    // of each object
   RestReport rest = {};
   double load_ms = 0, total_ms = 0;  // the time that writing takes does not count

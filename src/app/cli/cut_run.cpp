@@ -76,6 +76,8 @@ std::vector<CutObject> objects_of(const CutArguments& args, const ObjectInput& i
     if (Stroke* first = first_stroke(&object.request.strokes); first && args.scale != 0)
       first->size_step = args.scale;
     if (args.choice) object.request.choice = *args.choice - 1;
+    constexpr std::size_t kPixelBytes = 32;  // of what is drawn, and of the pictures made of it
+    check_picture(object.camera, kPixelBytes);
     check_inside(object.request);
   }
   return objects;
@@ -96,13 +98,8 @@ std::vector<EdgesReport> write_cutouts(const CutoutFolder& to, const std::vector
 // Says where there are fewer meanings than the one that was chosen.
 void warn_of_choices(const std::vector<CutObject>& objects, const CutRunOptions& options) {
   for (const CutObject& object : objects)
-    if (const CutResult& result = object.result;
-        result.choice < static_cast<std::size_t>(object.request.choice))
-      options.warn(fmt::format(
-          "{}what was said first can mean {} only: this is {}, not {}",
-          object.name.empty() ? "" : object.name + ": ",
-          result.meanings.size() <= 1 ? "one thing" : fmt::format("{} things", result.meanings.size()),
-          result.choice + 1, object.request.choice + 1));
+    if (const std::string said = fewer_meanings(object.result, object.request.choice); !said.empty())
+      options.warn((object.name.empty() ? "" : object.name + ": ") + said);
 }
 
 }  // namespace
@@ -135,6 +132,7 @@ void CutArguments::add_to(CLI::App& command) {
       ->excludes("--text");
   add_setting_options(command, &preset, &set);
   command.add_flag("--coarse", coarse, "Threshold the likelihood instead of the cut");
+  command.get_option("--coarse")->excludes("--smoothness");
   for (const char* without_effect :
        {"--mask", "--masks", "--text", "--views", "--propagate", "--refine", "--smoothness", "--coarse"})
     command.get_option("--parts-only")->excludes(without_effect);
@@ -189,12 +187,17 @@ FinishedCut run_cut_in(SharedScene* shared, const CutArguments& args, const Obje
   const ExportPlacement placement =
       placement_of(args.cutout, {scene.cloud, nullptr, &session.blocks()}, chosen.camera, job);
   stop_if_cancelled(job, "splatcut cut");
+  if (args.cutout.writes("objects") && placement == ExportPlacement{} &&  // rows are copied
+      std::ranges::count(scene.other_properties, "object_id") > 0)
+    throw Error(scene.path.string(), "has a property object_id already, where objects are to be numbered",
+                "Leave objects out of --write, or convert the scene first");
   const std::vector<std::uint8_t> owner = cut_objects(&objects, &session, settings, job);
   end_progress();
   stop_if_cancelled(job, "splatcut cut");
   warn_of_choices(objects, options);
-  RunReport report{
-      scene, said, objects, {}, {}, shared->load_ms(), shared->load_ms() + ms_since(start), options.times};
+  RunReport report{scene,        said, objects,           args.cutout,
+                   {},           {},   shared->load_ms(), shared->load_ms() + ms_since(start),
+                   options.times};
   CutoutFolder to{folder,       scene,       session.blocks(),          chosen.up_world,
                   chosen.given, args.cutout, args.cutout.writes("rest")};
   if (placement != ExportPlacement{})

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -202,6 +203,15 @@ void CutoutOptions::check() const {
                 "Add rest to --write, or leave --fill out");
   if (writes("fill") && fill != "surface")
     throw Error("--write fill", "writes what fills a hole, and none is filled", "Add --fill surface");
+  constexpr std::array kPlaced = {"object", "rest", "objects", "hull", "fill"};
+  if (std::ranges::any_of(kPlaced, [&](const char* file) { return writes(file); })) return;
+  const char* const placing = origin != "scene"       ? "--origin"
+                              : up != "scene"         ? "--up"
+                              : !known_length.empty() ? "--scale-by"
+                                                      : nullptr;
+  if (placing)
+    throw Error(placing, "places written Gaussians, and --write names no file that holds some",
+                "Add object to --write, or leave it out");
 }
 
 std::string EdgesReport::sentence() const {

@@ -37,7 +37,8 @@ struct CutoutOptions {
   void add_to(CLI::App& command);  // which must not outlive this
   bool clean() const { return edges != "keep"; }
   bool writes(std::string_view what) const;
-  void check() const;  // throws Error where a hole is to be filled in a rest that is not written
+  // Throws Error for options that work on files which are not written.
+  void check() const;
 };
 
 // What was done to the edges of an object.

@@ -68,11 +68,13 @@ void run_merge(const MergeArguments& args, const CommonOptions& common) {
   refuse_written_inputs(args.output, whole.scene.files);
   const SaveReport report = save_scene(args.output, whole.scene, {}, format, {spz_version});
   if (common.quiet) return;
-  for (const std::string& count : counts) fmt::print("{}\n", count);
-  fmt::print("{}: {} Gaussians, {} bytes\n", args.output.string(), report.gaussians, report.bytes);
+  std::string said;
+  for (const std::string& count : counts) said += count + "\n";
+  said += fmt::format("{}: {} Gaussians, {} bytes\n", args.output.string(), report.gaussians, report.bytes);
   const std::string between = whole.loss.empty() || report.loss.empty() ? "" : "; ";
   const std::string loss = whole.loss + between + report.loss;
-  if (!loss.empty()) fmt::print("Lost: {}\n", loss);
+  if (!loss.empty()) said += "Lost: " + loss + "\n";
+  say_written(args.output, said);
 }
 
 }  // namespace

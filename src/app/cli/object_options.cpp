@@ -19,6 +19,7 @@ void read_seeds(const std::filesystem::path& file, ObjectInput* input) {
   const bool is_text = file.native().starts_with('{');
   const std::string where = is_text ? "seeds" : file.string();
   const nlohmann::json seeds = is_text ? parse_json(where, file.native()) : json_of_file(file);
+  refuse_unknown_seeds(seeds, where);
   input->objects = named_seeds_from_json(seeds, where);
   input->strokes = strokes_from_json(seeds, where);
   if (!input->objects.empty() && !input->strokes.empty())
@@ -46,12 +47,17 @@ std::string contradiction(const Strokes& strokes) {
 }  // namespace
 
 void ObjectOptions::add_to(CLI::App& command) {
-  CLI::Option* by_clicks = command.add_option(
-      "--click", clicks, "Pixel x,y[:object|:rest] of the reference view; may be repeated");
-  CLI::Option* by_boxes = command.add_option(
-      "--box", boxes,
-      "Box x0,y0,x1,y1[:object|:rest] around what is meant, in pixels of the reference view; "
-      "may be repeated; clicks correct it");
+  // A scene may stand behind one: it is no further click.
+  CLI::Option* by_clicks =
+      command
+          .add_option("--click", clicks, "Pixel x,y[:object|:rest] of the reference view; may be repeated")
+          ->allow_extra_args(false);
+  CLI::Option* by_boxes =
+      command
+          .add_option("--box", boxes,
+                      "Box x0,y0,x1,y1[:object|:rest] around what is meant, in pixels of the reference view; "
+                      "may be repeated; clicks correct it")
+          ->allow_extra_args(false);
   CLI::Option* by_seeds =
       command.add_option("--seeds", seeds,
                          "JSON file (or its text) with clicks, boxes and scribbles, or with several "

@@ -100,6 +100,11 @@ Image<std::uint8_t> grey_of(const Image<float>& alpha) {
   return grey;
 }
 
+std::size_t pixel_bytes_of(const std::string& what) {
+  if (what == "depth") return sizeof(float) + sizeof(std::uint16_t);
+  return what == "alpha" ? 1 : sizeof(Rgb8);
+}
+
 // Before a picture that takes long: so that it can be stopped.
 void say_memory(const Camera& camera, std::size_t pixel_bytes, bool quiet) {
   constexpr double kFrom = 0.25, kGb = 1e9;
@@ -137,6 +142,7 @@ void draw_view(const SceneArguments& args, const GaussianCloud& cloud, const Cam
     return whole;
   };
   const int width = camera.width_px, height = camera.height_px;
+  check_picture(camera, pixel_bytes_of(args.what));
   if (args.what == "depth")
     write_depth(output, drawn(Image<float>(width, height),
                               [](const RasterOutput& strip) { return strip.expected_depth; }));
@@ -154,9 +160,10 @@ void draw_all_cameras(const SceneArguments& args, const GaussianCloud& cloud, co
   OutputFolder folder(args.output, args.overwrite);
   for (const Camera& given : chosen.given) {
     const std::filesystem::path name = std::filesystem::path(given.name + ".png").lexically_normal();
-    if (given.name.empty() || name.is_absolute() || *name.begin() == "..")
+    if (given.name.empty() || name.is_absolute() || *name.begin() == ".." ||
+        given.name.find('\0') != std::string::npos)
       throw Error(args.camera.cameras.string(),
-                  fmt::format("the camera \"{}\" has no name for a file", given.name));
+                  fmt::format("the camera {} has no name for a file", json_text(given.name)));
     const std::filesystem::path file = folder.file(name.string());
     if (std::filesystem::exists(file))
       throw Error(args.camera.cameras.string(), fmt::format("two cameras are called \"{}\"", given.name));
@@ -174,6 +181,8 @@ void refuse_undrawn(const SceneArguments& args, bool with_background) {
     throw CLI::ArgumentMismatch("--labels goes with --what labels");
   if (with_background && (args.what == "depth" || args.what == "alpha"))
     throw CLI::ArgumentMismatch("--background is not seen in --what " + args.what);
+  if (!args.camera.up.empty() && !args.camera.cameras.empty() && args.camera.position.empty())
+    throw CLI::ArgumentMismatch("--camera-up turns no camera of --cameras: it goes with --camera-pos");
 }
 
 void run_render(const SceneArguments& args, const CommonOptions& common) {
@@ -197,17 +206,16 @@ void run_render(const SceneArguments& args, const CommonOptions& common) {
     for (const std::uint8_t l : load_labels(args.labels, scene)) colours.emplace_back(l ? 1.0f : 0.0f);
     options.colour_override = colours;
   }
-  const bool depth = args.what == "depth", alpha = args.what == "alpha";
-  say_memory(chosen.camera,
-             depth   ? sizeof(float) + sizeof(std::uint16_t)
-             : alpha ? 1
-                     : sizeof(Rgb8),
-             common.quiet);
+  say_memory(chosen.camera, pixel_bytes_of(args.what), common.quiet);
   if (args.all_cameras)
     draw_all_cameras(args, scene.cloud, chosen, options, job);
   else
     draw_view(args, scene.cloud, chosen.camera, options, args.output, job);
-  if (!common.quiet) fmt::print("{}\n", args.output.string());
+  if (common.quiet) return;
+  if (args.all_cameras)
+    fmt::print("{}\n", args.output.string());
+  else
+    say_written(args.output, args.output.string() + "\n");
 }
 
 void run_convert(const SceneArguments& args, const CommonOptions& common) {
@@ -222,8 +230,9 @@ void run_convert(const SceneArguments& args, const CommonOptions& common) {
   refuse_written_inputs(args.output, scene.files);
   const SaveReport report = save_scene(args.output, scene, {}, format, {spz_version});
   if (common.quiet) return;
-  fmt::print("{}: {} Gaussians, {} bytes\n", args.output.string(), report.gaussians, report.bytes);
-  if (!report.loss.empty()) fmt::print("Lost: {}\n", report.loss);
+  say_written(args.output,
+              fmt::format("{}: {} Gaussians, {} bytes\n{}", args.output.string(), report.gaussians,
+                          report.bytes, report.loss.empty() ? "" : "Lost: " + report.loss + "\n"));
 }
 
 }  // namespace

@@ -244,6 +244,8 @@ nlohmann::json Conversation::undo(const Job& job) {
 nlohmann::json Conversation::object_json() const {
   const CutResult& result = object();
   nlohmann::json reply = {{"gaussians", std::ranges::count(result.labels, 1)}, {"doubts", doubts(result)}};
+  if (const std::string said = fewer_meanings(result, request_of(steps_).choice); !said.empty())
+    reply["doubts"].push_back(said);
   if (!result.meanings.empty())
     reply.update({{"choice", result.choice + 1},
                   {"choices", result.meanings.size()},

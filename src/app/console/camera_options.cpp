@@ -14,6 +14,7 @@
 #include "scene/camera/camera_file.h"
 #include "scene/camera/camera_names.h"
 #include "scene/camera/common_up.h"
+#include "scene/cloud/scene_memory.h"
 #include "scene/raster/first_view.h"
 #include "scene/raster/guessed_up.h"
 
@@ -100,6 +101,18 @@ glm::dvec3 parse_vec3(const std::string& text, const std::string& where) {
       !std::isfinite(v.x + v.y + v.z))
     throw Error(where + " " + text, "is not a point", "Write it as x,y,z");
   return v;
+}
+
+void check_picture(const Camera& camera, std::size_t pixel_bytes) {
+  constexpr double kGb = 1e9;
+  const double needed =
+      static_cast<double>(camera.width_px) * camera.height_px * static_cast<double>(pixel_bytes);
+  const std::optional<std::uint64_t> free = available_memory();
+  if (!free || needed <= static_cast<double>(*free)) return;
+  throw Error(camera.name.empty() ? "picture" : fmt::format("camera \"{}\"", camera.name),
+              fmt::format("its picture of {} x {} pixels takes {:.1f} GB of memory, and {:.1f} GB are free",
+                          camera.width_px, camera.height_px, needed / kGb, static_cast<double>(*free) / kGb),
+              "Give a smaller one with --size");
 }
 
 ChosenCamera choose_camera(const CameraOptions& options, const Scene& scene) {

@@ -38,6 +38,9 @@ struct ChosenCamera {
 // Throws Error for a camera that cannot be made. Scene::origin is taken off all positions that are given.
 ChosenCamera choose_camera(const CameraOptions& options, const Scene& scene);
 
+// Throws Error where a picture of the camera, at so many bytes a pixel, needs more memory than is free.
+void check_picture(const Camera& camera, std::size_t pixel_bytes);
+
 glm::dvec3 parse_vec3(const std::string& text, const std::string& where);
 
 }  // namespace splatcut

@@ -72,6 +72,31 @@ bool refuses_value(const CLI::ParseError& error) {
          dynamic_cast<const CLI::ConversionError*>(&error);
 }
 
+// A script's variable that is not set must not change what a command does: "" is a value of no option.
+Error is_empty(const std::string& option) {
+  return {option, "is empty", "Give a value, or leave it out: a variable of a script may be without one"};
+}
+
+void refuse_empty_values(CLI::App* command) {
+  for (CLI::Option* option : command->get_options()) {
+    const auto check = [name = option->get_name()](std::string& text) {
+      if (text.empty()) throw is_empty(name);
+      return std::string();
+    };
+    if (option->get_items_expected_min() > 0) option->transform(CLI::Validator(check, ""));  // before its own
+  }
+  for (CLI::App* below : command->get_subcommands({})) refuse_empty_values(below);
+}
+
+// "--name=" takes the next word for its value otherwise.
+void refuse_empty_values(const std::vector<std::string>& words) {
+  for (const std::string& word : words) {
+    if (word == "--") return;
+    if (word.starts_with("--") && word.find('=') + 1 == word.size())
+      throw is_empty(word.substr(0, word.size() - 1));
+  }
+}
+
 int parse_and_run(const CommandLine& line, std::vector<std::string> words) {
   CLI::App program{line.description};
   program.name(line.program);
@@ -93,6 +118,8 @@ int parse_and_run(const CommandLine& line, std::vector<std::string> words) {
       limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(common.threads));
   });
   line.add_commands(program, common);
+  refuse_empty_values(&program);
+  refuse_empty_values(words);
   std::ranges::reverse(words);  // as CLI11 wants them
   try {
     program.parse(std::move(words));

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <thread>
 
+#include "core/atomic_file.h"
 #include "core/error.h"
 
 namespace splatcut {
@@ -89,6 +90,13 @@ void warn(const std::string& sentence, bool quiet) {
 void end_progress() {
   if (g_bar_drawn) to_stderr(fmt::format("\r{:60}\r", ""));
   g_bar_drawn = false;
+}
+
+void say_written(const std::filesystem::path& file, const std::string& lines) {
+  if (is_stream(file))
+    to_stderr(lines);
+  else
+    fmt::print("{}", lines);
 }
 
 void to_stderr(const std::string& text) {

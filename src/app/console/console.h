@@ -1,6 +1,7 @@
 // Talking to a terminal: progress on stderr, signals that end a program as stop requests.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <string_view>
 
@@ -21,6 +22,9 @@ void warn(const std::string& sentence, bool quiet);
 
 // Ends the bar's line, if one was drawn.
 void end_progress();
+
+// Says on stdout what was written; on stderr where that was a pipe or a device, which stdout may be.
+void say_written(const std::filesystem::path& file, const std::string& lines);
 
 // Never throws: nobody may be left to read, as after SIGHUP.
 void to_stderr(const std::string& text);

@@ -2,12 +2,17 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <numeric>
+#include <string_view>
+#include <utility>
 
 #include "core/error.h"
 #include "core/json_file.h"
+#include "core/spoken_list.h"
 #include "segment/selection/click_selection.h"
 
 namespace splatcut {
@@ -47,7 +52,51 @@ Marked<N> parse_marked(const std::string& option, const std::string& text, const
   return marked;
 }
 
+// Letters to change, add or take away until both are the same (Levenshtein).
+std::size_t letters_apart(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t before = std::exchange(row[0], i + 1);
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const std::size_t changed = before + (a[i] != b[j]);
+      before = std::exchange(row[j + 1], std::min({changed, row[j] + 1, row[j + 1] + 1}));
+    }
+  }
+  return row.back();
+}
+
+void refuse_unknown_fields(const nlohmann::json& object, const std::vector<std::string>& known,
+                           const std::string& what, const std::string& where) {
+  if (!object.is_object()) return;      // said where it is read
+  constexpr std::size_t kMisspelt = 2;  // letters
+  for (const auto& [key, value] : object.items()) {
+    if (std::ranges::find(known, key) != known.end()) continue;
+    const auto apart = [&key = key](const std::string& name) { return letters_apart(key, name); };
+    const std::string nearest = *std::ranges::min_element(known, {}, apart);
+    throw Error(where, fmt::format("{} has no field \"{}\"", what, key),
+                apart(nearest) <= kMisspelt ? fmt::format("\"{}\" is one", nearest)
+                                            : "It takes " + spoken_list(known));
+  }
+}
+
 }  // namespace
+
+void refuse_unknown_seeds(const nlohmann::json& seeds, const std::string& where, bool in_list) {
+  std::vector<std::string> known = {"clicks", "boxes", "scribbles", "camera", "choice"};
+  if (in_list)
+    known.insert(known.end(), {"name", "object"});
+  else
+    known.insert(known.end(), {"objects", "labels"});  // make-scene writes the names of labels, too
+  refuse_unknown_fields(seeds, known, in_list ? "an object" : "it", where);
+  const auto each = [&](const char* list, const char* what, const std::vector<std::string>& fields) {
+    if (seeds.is_object() && seeds.contains(list) && seeds.at(list).is_array())
+      for (const nlohmann::json& one : seeds.at(list)) refuse_unknown_fields(one, fields, what, where);
+  };
+  each("clicks", "a click", {"x", "y", "label", "scale"});
+  each("boxes", "a box", {"corners", "label", "scale"});
+  each("scribbles", "a scribble", {"points", "radius_px", "label"});
+}
 
 int size_step_from_json(const nlohmann::json& stroke, const char* key, const std::string& where) {
   if (!stroke.contains(key)) return 0;

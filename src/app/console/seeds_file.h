@@ -14,6 +14,10 @@ namespace splatcut {
 // Clicks and boxes may have a "scale", which becomes their Stroke::size_step.
 Strokes strokes_from_json(const nlohmann::json& seeds, const std::string& where);
 
+// Throws Error for a field that is none of seeds, or of one of several objects (in_list), and for one that is
+// none of a click, a box or a scribble in them: a misspelt one would change what is meant.
+void refuse_unknown_seeds(const nlohmann::json& seeds, const std::string& where, bool in_list = false);
+
 // Stroke::size_step under that key, 0 where there is none. Throws Error where it is no step.
 int size_step_from_json(const nlohmann::json& stroke, const char* key, const std::string& where);
 

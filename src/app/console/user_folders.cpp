@@ -1,5 +1,8 @@
 #include "app/console/user_folders.h"
 
+#include <pwd.h>
+#include <unistd.h>
+
 #include <cstdlib>
 
 namespace splatcut {
@@ -11,7 +14,12 @@ std::filesystem::path xdg(const char* variable, const char* in_home) {
   if (const char* folder = std::getenv(variable); folder && std::filesystem::path(folder).is_absolute())
     return std::filesystem::path(folder) / "splatcut";
   const char* home = std::getenv("HOME");
-  return std::filesystem::path(home && *home ? home : "/tmp") / in_home / "splatcut";
+  if (!home || !*home) {
+    const passwd* user = ::getpwuid(::getuid());
+    // Nothing is kept there. In /tmp others could put files for the program to read.
+    home = user && user->pw_dir && *user->pw_dir ? user->pw_dir : "/nonexistent";
+  }
+  return std::filesystem::path(home) / in_home / "splatcut";
 }
 
 }  // namespace

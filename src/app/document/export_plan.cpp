@@ -106,6 +106,21 @@ void save_in_one(const std::vector<std::uint8_t>& owner, const std::optional<Sim
   write_object_names(names, objects);
 }
 
+// Bytes of the character of UTF-8 that the text begins with: 1 for one of ASCII, 0 for what is none or
+// controls (U+0080 to U+009F).
+std::size_t bytes_of_letter(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  if (byte(0) < 0x80) return 1;
+  const std::size_t bytes = byte(0) >= 0xf0 ? 4 : byte(0) >= 0xe0 ? 3 : 2;
+  if (byte(0) < 0xc2 || byte(0) > 0xf4 || text.size() < bytes) return 0;
+  for (std::size_t i = 1; i < bytes; ++i)
+    if (byte(i) < 0x80 || byte(i) > 0xbf) return 0;
+  const bool overlong = (byte(0) == 0xe0 && byte(1) < 0xa0) || (byte(0) == 0xf0 && byte(1) < 0x90);
+  const bool no_letter = (byte(0) == 0xed && byte(1) > 0x9f) || (byte(0) == 0xf4 && byte(1) > 0x8f) ||
+                         (byte(0) == 0xc2 && byte(1) < 0xa0);
+  return overlong || no_letter ? 0 : bytes;
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> exported(const Document& document, ObjectId object, ExportWhat what,
@@ -125,7 +140,13 @@ std::vector<std::uint8_t> exported(const Document& document, ObjectId object, Ex
 
 std::string file_name_of(const std::string& object_name) {
   std::string name;
-  for (const char c : object_name) name += std::isalnum(static_cast<unsigned char>(c)) || c == '-' ? c : '_';
+  for (std::size_t i = 0; i < object_name.size();) {
+    const char c = object_name[i];
+    const bool stays = (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '-';
+    const std::size_t bytes = bytes_of_letter(std::string_view(object_name).substr(i));
+    name += bytes > 1 ? object_name.substr(i, bytes) : std::string(1, stays ? c : '_');
+    i += std::max<std::size_t>(bytes, 1);
+  }
   return name.empty() ? "object" : name;
 }
 

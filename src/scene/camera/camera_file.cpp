@@ -42,7 +42,7 @@ std::string without_nan(std::string_view text) {
 // No pipe: nobody may have named this file.
 json json_of_regular_file(const fs::path& path) {
   const MappedFile file(path);
-  const std::string_view text(reinterpret_cast<const char*>(file.bytes().data()), file.bytes().size());
+  const std::string_view text = file.text();
   const bool has_nan = text.find("NaN") != text.npos || text.find("Infinity") != text.npos;
   return has_nan ? parse_json(path, without_nan(text)) : parse_json(path, text);
 }

@@ -138,7 +138,7 @@ class Cameras {
 class BinaryReader {
  public:
   explicit BinaryReader(const fs::path& path) : file_(path), left_(file_.bytes()) {
-    refuse_stand_in(path, {reinterpret_cast<const char*>(left_.data()), left_.size()});
+    refuse_stand_in(path, file_.text());
   }
 
   const fs::path& path() const { return file_.path(); }
@@ -207,9 +207,8 @@ std::vector<Camera> read_images_bin(const fs::path& path, Lenses lenses, const g
 
 std::string text_of(const fs::path& path) {
   const MappedFile file(path);
-  const std::string_view text(reinterpret_cast<const char*>(file.bytes().data()), file.bytes().size());
-  refuse_stand_in(path, text);
-  return std::string(text);
+  refuse_stand_in(path, file.text());
+  return std::string(file.text());
 }
 
 // NaN, too, which a stream does not take for a number.

@@ -23,6 +23,12 @@ inline glm::vec3 colour_from_f_dc(const glm::vec3& f_dc) {
   return 0.5f + kShC0Rounded * f_dc;
 }
 
+// A flat Gaussian has 0, of which some readers take a logarithm, and others divide by it.
+inline glm::vec3 never_flat(const glm::vec3& scale) {
+  constexpr float kSmallest = 1e-20f;
+  return glm::max(scale, kSmallest);
+}
+
 // The nearest step of 0..2^bits-1 that stands for value in [0, 1]; NaN becomes 0.
 inline std::uint32_t to_steps(float value, int bits) {
   const float max = static_cast<float>((1u << bits) - 1);

@@ -10,6 +10,7 @@
 #include "core/atomic_file.h"
 #include "core/error.h"
 #include "scene/cloud/chunk_order.h"
+#include "scene/cloud/moved_far.h"
 #include "scene/cloud/quantise.h"
 #include "scene/formats/decode.h"
 #include "scene/formats/losses.h"
@@ -226,25 +227,6 @@ void read_compressed_ply(const MappedFile& file, const LoadOptions&, Scene& scen
   take_up(up_from_header(header), {}, &scene);
 }
 
-// As those do that share a chunk with a stray. Empty where none moves by many times its size.
-std::string moved_far(const GaussianCloud& cloud, std::span<const std::uint32_t> order,
-                      std::span<const Chunk> chunks) {
-  constexpr float kMany = 10;
-  std::size_t count = 0;
-  float farthest = 0;
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const Bounds& bounds = chunks[i / kChunkRows].position;
-    const glm::vec3 &at = cloud.position[order[i]], size = cloud.scale[order[i]];
-    const float moves = glm::distance(at, bounds.at(unpack_11_10_11(pack_11_10_11(bounds.fraction_of(at)))));
-    if (moves <= kMany * std::max({size.x, size.y, size.z})) continue;
-    ++count;
-    farthest = std::max(farthest, moves);
-  }
-  if (count == 0) return {};
-  return fmt::format("{} Gaussians move by more than {:g} times their size, up to {:.2g} units", count, kMany,
-                     farthest);
-}
-
 Losses compressed_ply_losses(const Scene& scene, std::span<const std::uint32_t> gaussians) {
   constexpr float kHalfStep = 0.5f / 256;
   constexpr Reach kShBytes{(-0.5f - kHalfStep) * kShRange, (0.5f + kHalfStep) * kShRange};
@@ -282,7 +264,11 @@ std::string write_compressed_ply(AtomicFile& out, const Scene& scene,
   }
   out.write(std::as_bytes(std::span(sh)));
   Losses losses = compressed_ply_losses(scene, gaussians);
-  losses.add(moved_far(cloud, order, chunks));
+  constexpr float kManySizes = 10;  // as those move that share a chunk with a stray
+  losses.add(moved_far(cloud, order, kManySizes, [&](std::size_t i) {
+    const Bounds& bounds = chunks[i / kChunkRows].position;
+    return bounds.at(unpack_11_10_11(pack_11_10_11(bounds.fraction_of(cloud.position[order[i]]))));
+  }));
   return losses.sentence();
 }
 

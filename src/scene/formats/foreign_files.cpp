@@ -57,7 +57,7 @@ constexpr Foreign kForeign[] = {
 
 void refuse_foreign(const MappedFile& file) {
   const std::string name = lower_case(file.path().filename().string());
-  const std::string_view content(reinterpret_cast<const char*>(file.bytes().data()), file.bytes().size());
+  const std::string_view content = file.text();
   refuse_stand_in(file.path(), content);
   for (const Foreign& foreign : kForeign)
     if (name.ends_with(foreign.ending) || (!foreign.mark.empty() && content.starts_with(foreign.mark)))

@@ -16,7 +16,7 @@
 #include "core/json_file.h"
 #include "scene/cloud/quantise.h"
 #include "scene/cloud/spherical_harmonics.h"
-#include "scene/formats/axes.h"
+#include "scene/formats/axis_signs.h"
 #include "scene/formats/decode.h"
 #include "scene/formats/gltf_file.h"
 #include "scene/formats/said_up.h"

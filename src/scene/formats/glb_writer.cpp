@@ -6,7 +6,7 @@
 
 #include "core/atomic_file.h"
 #include "core/error.h"
-#include "scene/formats/axes.h"
+#include "scene/formats/axis_signs.h"
 #include "scene/formats/glb.h"
 #include "scene/formats/losses.h"
 #include "scene/formats/said_up.h"

@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/base64.h"
 #include "core/error.h"
 #include "core/json_file.h"
 #include "scene/cloud/quantise.h"
@@ -36,32 +37,8 @@ std::span<const std::byte> chunk_at(const MappedFile& file, std::size_t* at, std
   return chunk;
 }
 
-json parsed(const MappedFile& file, std::span<const std::byte> text) {
-  return parse_json(file.path(), {reinterpret_cast<const char*>(text.data()), text.size()});
-}
-
-// A digit of base64; 64 for others.
-std::uint32_t base64_digit(char c) {
-  constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  return static_cast<std::uint32_t>(std::min(kDigits.find(c), kDigits.size()));
-}
-
-std::vector<std::byte> from_base64(const MappedFile& file, std::string_view text) {
-  while (text.ends_with('=')) text.remove_suffix(1);
-  std::vector<std::byte> bytes;
-  bytes.reserve(text.size() / 4 * 3 + 3);
-  std::uint32_t bits = 0;
-  int count = 0;
-  for (const char c : text) {
-    const std::uint32_t digit = base64_digit(c);
-    if (digit == 64) throw Error(file.path().string(), "a buffer inside the text is not written as base64");
-    bits = bits << 6 | digit;
-    count += 6;
-    if (count < 8) continue;
-    count -= 8;
-    bytes.push_back(static_cast<std::byte>(bits >> count));
-  }
-  return bytes;
+std::string_view text_of(std::span<const std::byte> chunk) {
+  return {reinterpret_cast<const char*>(chunk.data()), chunk.size()};
 }
 
 int hex_digit(char c) {
@@ -92,9 +69,11 @@ void open_buffers(const MappedFile& file, std::span<const std::byte> binary, Glt
     if (constexpr std::string_view kInText = "data:"; said.starts_with(kInText)) {
       constexpr std::string_view kBase64 = ";base64,";
       const std::size_t begin = said.find(kBase64);
-      if (begin == said.npos || said.find(',') < begin)
-        throw Error(file.path().string(), "a buffer inside the text is not written as base64");
-      gltf->inside.push_back(from_base64(file, std::string_view(said).substr(begin + kBase64.size())));
+      auto bytes = begin == said.npos || said.find(',') < begin
+                       ? std::nullopt
+                       : bytes_of_base64(std::string_view(said).substr(begin + kBase64.size()));
+      if (!bytes) throw Error(file.path().string(), "a buffer inside the text is not written as base64");
+      gltf->inside.push_back(*std::move(bytes));
       gltf->buffers.emplace_back(gltf->inside.back());
       continue;
     }
@@ -136,11 +115,11 @@ Gltf::Gltf(const MappedFile& file) {
       throw Error(file.path().string(), fmt::format("version {} of .glb is not supported", version));
     const auto chunk = chunk_at(file, &at, &type);
     if (type != kJsonChunk) throw Error(file.path().string(), incomplete("it has no text"));
-    text = parsed(file, chunk);
+    text = parse_json(file.path(), text_of(chunk));
     binary = chunk_at(file, &at, &type);
     if (type != kBinaryChunk) binary = {};
   } else {
-    text = parsed(file, file.bytes());
+    text = parse_json(file.path(), file.text());
   }
   check_required(file, text);
   open_buffers(file, binary, this);

@@ -1,16 +1,13 @@
-// Reader of .lcc (XGRIDS, its white paper): a text that says ranges and levels of detail, and beside it
-//   index.bin        units of the ground plan: x, y (16 bits), then of each level, the finest first:
-//   Gaussians
-//                    (32 bits), where they begin in data.bin (64 bits), their bytes (32 bits)
+// Reader of .lcc (XGRIDS, its white paper): a text that says ranges and levels of detail. Beside it stand
+//   index.bin        units of the ground plan: x, y (16 bits), then of each level, the finest first: its
+//                    Gaussians (32 bits), where they begin in data.bin (64 bits), their bytes (32 bits)
 //   data.bin         32 bytes a Gaussian: position 3 float; colour and opacity 4 bytes; scale 3 x 16 bits
-//   between
-//                    min and max; rotation 3 x 10 bits, -1 to 1 over sqrt(2), and the number of the largest
-//                    of x y z w, 2 bits; a normal, 3 x 16 bits
+//                    between min and max; rotation 3 x 10 bits, -1 to 1 over sqrt(2), and the number of
+//                    the largest of x y z w, 2 bits; a normal, 3 x 16 bits
 //   shcoef.bin       64 bytes a Gaussian, in the same order: 15 coefficients of 11, 10 and 11 bits between
-//   min
-//                    and max, and 4 bytes of nothing
+//                    min and max, and 4 bytes of nothing
 //   environment.bin  what lies around, each Gaussian as in data.bin, behind it as in shcoef.bin; may be
-//   missing
+//                    missing
 // Axes are x right, y forward, z up.
 #include <fmt/format.h>
 
@@ -67,8 +64,7 @@ LccRange range_of(const fs::path& path, const json& attribute) {
 }
 
 LccMeta meta_of(const MappedFile& file) {
-  const json text =
-      parse_json(file.path(), {reinterpret_cast<const char*>(file.bytes().data()), file.bytes().size()});
+  const json text = parse_json(file.path(), file.text());
   const auto attribute = [&](const char* name) -> const json* {
     for (const json& each : text.at("attributes"))
       if (each.at("name") == name) return &each;

@@ -64,8 +64,7 @@ struct Lcc2Text {
 };
 
 Lcc2Text::Lcc2Text(const MappedFile& mapped) : file(mapped) {
-  text = parse_json(file.path(), without_last_commas({reinterpret_cast<const char*>(file.bytes().data()),
-                                                      file.bytes().size()}));
+  text = parse_json(file.path(), without_last_commas(file.text()));
   levels = piece_number(file, text.at(is_old() ? "lod_level" : "totalLevels"), "number of levels", "it");
   if (levels == 0 || levels > SceneLevels::kMost)
     refuse_index(file, fmt::format("has {} levels of detail, not 1 to {}", levels, SceneLevels::kMost));

@@ -68,8 +68,7 @@ PlyTextRows read_text_rows(const MappedFile& file, const PlyHeader& header, cons
   const auto refuse = [&](const std::string& what) { throw Error(file.path().string(), what); };
   if (element.has_list || element.properties.empty())
     refuse(fmt::format("list properties in the element \"{}\" are not supported", element.name));
-  std::string_view text(reinterpret_cast<const char*>(file.bytes().data()), file.bytes().size());
-  text.remove_prefix(header.bytes);
+  std::string_view text = file.text().substr(header.bytes);
   for (const PlyElement& before : header.elements) {
     if (before.name == element.name) break;
     for (std::size_t row = 0; row < before.count && !text.empty(); ++row) next_line(&text);

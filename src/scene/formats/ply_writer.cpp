@@ -12,6 +12,7 @@
 
 #include "core/error.h"
 #include "core/mapped_file.h"
+#include "scene/cloud/quantise.h"
 #include "scene/formats/said_up.h"
 #include "scene/packing/ply_header.h"
 
@@ -61,11 +62,6 @@ float logit(float opacity) {
   return std::log(p / (1.0f - p));
 }
 
-float log_scale(float scale) {
-  constexpr float kSmallest = 1e-20f;  // a flat Gaussian has 0, whose logarithm some readers refuse
-  return std::log(std::max(scale, kSmallest));
-}
-
 std::string header_for(std::size_t count, const GaussianCloud& cloud, bool is_far,
                        const SaveOptions& options) {
   std::string header = fmt::format("ply\nformat binary_little_endian 1.0\n{}{}element vertex {}\n",
@@ -85,7 +81,7 @@ using RowValues = std::array<std::pair<const char*, double>, 14>;
 
 RowValues values_of_row(const GaussianCloud& cloud, std::size_t g, const glm::dvec3& origin) {
   const glm::dvec3 p = glm::dvec3(cloud.position[g]) + origin;
-  const glm::vec3 &s = cloud.scale[g], &dc = cloud.f_dc[g];
+  const glm::vec3 size = glm::log(never_flat(cloud.scale[g])), &dc = cloud.f_dc[g];
   const glm::quat& q = cloud.rotation[g];
   return {{{"x", p.x},
            {"y", p.y},
@@ -94,9 +90,9 @@ RowValues values_of_row(const GaussianCloud& cloud, std::size_t g, const glm::dv
            {"f_dc_1", dc.y},
            {"f_dc_2", dc.z},
            {"opacity", logit(cloud.opacity[g])},
-           {"scale_0", log_scale(s.x)},
-           {"scale_1", log_scale(s.y)},
-           {"scale_2", log_scale(s.z)},
+           {"scale_0", size.x},
+           {"scale_1", size.y},
+           {"scale_2", size.z},
            {"rot_0", q.w},
            {"rot_1", q.x},
            {"rot_2", q.y},
@@ -150,7 +146,7 @@ void write_ply_subset(AtomicFile& out, const Scene& scene, std::span<const std::
     throw Error(scene.path.string(), "has a property object_id already, where objects are to be numbered");
   const std::span<const std::byte> rows = element_bytes(scene.path, source.bytes(), *vertex);
   const std::string text =
-      changed_header({reinterpret_cast<const char*>(source.bytes().data()), header.bytes},
+      changed_header(source.text().substr(0, header.bytes),
                      gaussians.size() + (changed ? changed->size() : 0), !object_ids.empty(), options.up);
   out.write(std::as_bytes(std::span(text)));
   out.write(source.bytes().subspan(header.bytes, vertex->data_begin - header.bytes));
@@ -189,7 +185,7 @@ void write_ply_rows(AtomicFile& out, const Scene& scene, std::span<const std::ui
   std::vector<float> row;
   const auto add = [&](auto... values) { (row.push_back(values), ...); };
   for (const std::uint32_t g : gaussians) {
-    const glm::vec3 &p = cloud.position[g], &dc = cloud.f_dc[g], &s = cloud.scale[g];
+    const glm::vec3 &p = cloud.position[g], &dc = cloud.f_dc[g], size = glm::log(never_flat(cloud.scale[g]));
     const glm::quat& q = cloud.rotation[g];
     const std::span<const float> rest = cloud.sh_rest_of(g);
     row.clear();
@@ -201,7 +197,7 @@ void write_ply_rows(AtomicFile& out, const Scene& scene, std::span<const std::ui
     }
     add(0.0f, 0.0f, 0.0f, dc.x, dc.y, dc.z);
     row.insert(row.end(), rest.begin(), rest.end());
-    add(logit(cloud.opacity[g]), log_scale(s.x), log_scale(s.y), log_scale(s.z), q.w, q.x, q.y, q.z);
+    add(logit(cloud.opacity[g]), size.x, size.y, size.z, q.w, q.x, q.y, q.z);
     const auto bytes = std::as_bytes(std::span(row));
     buffer.insert(buffer.end(), bytes.begin(), bytes.end());
     if (!options.object_ids.empty()) buffer.push_back(std::byte{options.object_ids[g]});

@@ -15,6 +15,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -164,6 +165,7 @@ class RadFile {
 std::vector<RadChunk> RadFile::chunks(bool only_tree, const Job& job) {
   std::vector<RadChunk> all;
   std::size_t first = 0;
+  std::set<fs::path> seen;  // a file that many chunks name counts once
   const json& list = meta_.at("chunks");
   for (const json& said : list) {
     job.progress("unpacking", static_cast<double>(all.size()) / static_cast<double>(list.size()));
@@ -174,8 +176,10 @@ std::vector<RadChunk> RadFile::chunks(bool only_tree, const Job& job) {
       const fs::path name = path_in_folder(file_, said.at("filename").get<std::string>());
       beside = std::make_unique<MappedFile>(file_.path().parent_path() / name);
       from = beside->bytes();
-      others_.push_back(beside->path());
-      packed_ += from.size();
+      if (seen.insert(beside->path()).second) {
+        others_.push_back(beside->path());
+        packed_ += from.size();
+      }
     }
     const fs::path& path = beside ? beside->path() : file_.path();
     if (offset > from.size() || size > from.size() - offset)

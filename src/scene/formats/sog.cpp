@@ -230,10 +230,8 @@ void read_sog(const MappedFile& file, const LoadOptions&, Scene& scene, const Jo
 
 bool is_sog(const MappedFile& file) {
   if (begins_with(file, kZipMark)) return true;
-  const std::string_view text(reinterpret_cast<const char*>(file.bytes().data()), file.bytes().size());
-  const std::size_t first = text.find_first_not_of(" \t\r\n");
-  return first != text.npos && text[first] == '{' && text.find("\"means\"") != text.npos &&
-         text.find("\"quats\"") != text.npos;
+  const std::string_view text = file.text();
+  return begins_as_json(file) && text.find("\"means\"") != text.npos && text.find("\"quats\"") != text.npos;
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/atomic_file.h"
+#include "scene/cloud/moved_far.h"
 #include "scene/cloud/quantise.h"
 #include "scene/formats/losses.h"
 #include "scene/formats/said_up.h"
@@ -53,26 +54,46 @@ json list_of(const glm::vec3& v) {
   return {v.x, v.y, v.z};
 }
 
-json add_means(const SogInput& in, SogPictures* pictures) {
-  std::vector<glm::vec3> logs;
-  glm::vec3 least(std::numeric_limits<float>::infinity()), most(-least);
-  for (const std::uint32_t g : in.gaussians) {
-    const glm::vec3& p = in.cloud.position[g];
-    logs.emplace_back(sog::to_log(p.x), sog::to_log(p.y), sog::to_log(p.z));
-    least = glm::min(least, logs.back());
-    most = glm::max(most, logs.back());
-  }
-  Image<Rgba8> low = picture_for(in.size()), high = low;
-  const glm::vec3 range = glm::max(most - least, glm::vec3(std::numeric_limits<float>::min()));
-  for (std::size_t i = 0; i < in.size(); ++i)
-    for (int c = 0; c < 3; ++c) {
-      const std::uint32_t steps = to_steps((logs[i][c] - least[c]) / range[c], 16);
-      low.pixels()[i][static_cast<std::size_t>(c)] = static_cast<std::uint8_t>(steps);
-      high.pixels()[i][static_cast<std::size_t>(c)] = static_cast<std::uint8_t>(steps >> 8);
+// Positions as 16 bits between the least and the most of their logarithms.
+struct SogMeans {
+  glm::vec3 least{std::numeric_limits<float>::infinity()}, most{-std::numeric_limits<float>::infinity()};
+
+  SogMeans(const GaussianCloud& cloud, std::span<const std::uint32_t> gaussians) {
+    for (const std::uint32_t g : gaussians) {
+      const glm::vec3 logs = log_of(cloud.position[g]);
+      least = glm::min(least, logs);
+      most = glm::max(most, logs);
     }
+  }
+  static glm::vec3 log_of(const glm::vec3& p) {
+    return {sog::to_log(p.x), sog::to_log(p.y), sog::to_log(p.z)};
+  }
+  glm::vec3 range() const { return glm::max(most - least, std::numeric_limits<float>::min()); }
+  glm::uvec3 steps_of(const glm::vec3& p) const {
+    const glm::vec3 share = (log_of(p) - least) / range();
+    return {to_steps(share.x, 16), to_steps(share.y, 16), to_steps(share.z, 16)};
+  }
+  glm::vec3 read_back(const glm::vec3& p) const {
+    const glm::vec3 logs = least + glm::vec3(steps_of(p)) / sog::kSteps * range();
+    return {sog::from_log(logs.x), sog::from_log(logs.y), sog::from_log(logs.z)};
+  }
+};
+
+json add_means(const SogInput& in, SogPictures* pictures) {
+  const SogMeans means(in.cloud, in.gaussians);
+  Image<Rgba8> low = picture_for(in.size()), high = low;
+  for (std::size_t i = 0; i < in.size(); ++i) {
+    const glm::uvec3 steps = means.steps_of(in.cloud.position[in.gaussians[i]]);
+    for (int c = 0; c < 3; ++c) {
+      low.pixels()[i][static_cast<std::size_t>(c)] = static_cast<std::uint8_t>(steps[c]);
+      high.pixels()[i][static_cast<std::size_t>(c)] = static_cast<std::uint8_t>(steps[c] >> 8);
+    }
+  }
   pictures->add("means_l", std::move(low));
   pictures->add("means_u", std::move(high));
-  return {{"mins", list_of(least)}, {"maxs", list_of(most)}, {"files", {"means_l.webp", "means_u.webp"}}};
+  return {{"mins", list_of(means.least)},
+          {"maxs", list_of(means.most)},
+          {"files", {"means_l.webp", "means_u.webp"}}};
 }
 
 json add_quats(const SogInput& in, SogPictures* pictures) {
@@ -89,11 +110,6 @@ json add_quats(const SogInput& in, SogPictures* pictures) {
     pixel[3] = static_cast<std::uint8_t>(sog::kLargestAt + static_cast<int>(largest));
   }
   return {{"files", {"quats.webp"}}};
-}
-
-glm::vec3 log_scale_for_sog(const glm::vec3& scale) {
-  constexpr float kSmallest = 1e-20f;  // a flat Gaussian has 0
-  return glm::log(glm::max(scale, kSmallest));
 }
 
 // Three numbers of each Gaussian by a codebook of all of them. value: of a Gaussian.
@@ -113,7 +129,7 @@ Codebook fill_by_codebook(const SogInput& in, const Value& value, Image<Rgba8>* 
 json add_scales(const SogInput& in, SogPictures* pictures) {
   Image<Rgba8>& image = pictures->add("scales", picture_for(in.size()));
   const Codebook codebook = fill_by_codebook(
-      in, [&](std::uint32_t g) { return log_scale_for_sog(in.cloud.scale[g]); }, &image);
+      in, [&](std::uint32_t g) { return glm::log(never_flat(in.cloud.scale[g])); }, &image);
   return {{"codebook", codebook}, {"files", {"scales.webp"}}};
 }
 
@@ -176,14 +192,17 @@ json add_all(const SogInput& in, bool antialiased, SogPictures* pictures) {
   return meta;
 }
 
-Losses sog_losses(const Scene& scene, std::size_t gaussians) {
+Losses sog_losses(const Scene& scene, std::span<const std::uint32_t> gaussians) {
   Losses losses;
   losses.add("positions are rounded to 16 bits, rotations and opacities to 8, whose order changes");
   losses.add("sizes and colours are each drawn from 256 values");
   if (scene.cloud.sh_degree > 0)
-    losses.add(gaussians > kMostPalette
+    losses.add(gaussians.size() > kMostPalette
                    ? fmt::format("spherical harmonics of 8 bits are drawn from {} sets", kMostPalette)
                    : "spherical harmonics have 8 bits");
+  const SogMeans means(scene.cloud, gaussians);
+  losses.add(moved_far(scene.cloud, gaussians, kVisibly,
+                       [&](std::size_t i) { return means.read_back(scene.cloud.position[gaussians[i]]); }));
   losses.add(origin_left_out(scene));
   losses.add(properties_left_out(scene));
   return losses;
@@ -206,7 +225,7 @@ std::string write_sog(AtomicFile& out, const Scene& scene, std::span<const std::
   const auto bytes = std::as_bytes(std::span(text));
   entries.push_back({"meta.json", {bytes.begin(), bytes.end()}});
   out.write(zip_of(entries));
-  return sog_losses(scene, gaussians.size()).sentence();
+  return sog_losses(scene, gaussians).sentence();
 }
 
 FormatPlan plan_sog(const Scene& scene, std::span<const std::uint32_t> gaussians, bool) {
@@ -214,7 +233,7 @@ FormatPlan plan_sog(const Scene& scene, std::span<const std::uint32_t> gaussians
   SogPictures pictures;
   FormatPlan plan{.about = true,
                   .kept = "What the scene says of Gaussians, quantised and packed for the web.",
-                  .lost = sog_losses(scene, gaussians.size()).in_full()};
+                  .lost = sog_losses(scene, gaussians).in_full()};
   if (gaussians.empty()) return plan;
   plan.bytes = add_all(sample, false, &pictures).dump().size();
   for (std::size_t i = 0; i < pictures.names.size(); ++i) {

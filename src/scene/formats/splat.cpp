@@ -88,7 +88,7 @@ std::string write_splat(AtomicFile& out, const Scene& scene, std::span<const std
     const glm::vec3 colour = 255.0f * colour_from_f_dc(cloud.f_dc[g]);
     const glm::quat q = cloud.rotation[g] * 128.0f;
     rows[i] = {cloud.position[g],
-               cloud.scale[g],
+               never_flat(cloud.scale[g]),
                {to_byte(colour.x), to_byte(colour.y), to_byte(colour.z), to_byte(255.0f * cloud.opacity[g])},
                {to_byte(q.w + 128), to_byte(q.x + 128), to_byte(q.y + 128), to_byte(q.z + 128)}};
   }

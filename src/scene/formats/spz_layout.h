@@ -21,9 +21,9 @@
 #include <string>
 #include <string_view>
 
-#include "scene/formats/axes.h"
 #include "scene/formats/losses.h"
 #include "scene/formats/scene_file.h"
+#include "scene/formats/spz_axes.h"
 
 namespace splatcut::spz {
 
@@ -87,7 +87,6 @@ constexpr Reach kShByteRange{-128.5f / 128, 127.5f / 128};
 
 namespace splatcut {
 
-Losses spz_losses(const Scene& scene, std::span<const std::uint32_t> gaussians);
 FormatPlan plan_spz(const Scene& scene, std::span<const std::uint32_t> gaussians, bool moved);
 std::string write_spz(AtomicFile& out, const Scene& scene, std::span<const std::uint32_t> gaussians,
                       const SaveOptions& options);

@@ -12,6 +12,7 @@
 
 #include "core/atomic_file.h"
 #include "core/error.h"
+#include "scene/cloud/fixed_steps.h"
 #include "scene/cloud/quantise.h"
 #include "scene/formats/said_up.h"
 #include "scene/formats/spz_layout.h"
@@ -21,47 +22,12 @@ namespace splatcut {
 
 namespace {
 
-constexpr float kFixedLimit = 8388607.0f;  // 2^23 - 1
-constexpr int kUsualFractionalBits = 12;
-
 using Buffer = std::vector<std::uint8_t>;
 
-// As many bits, up to the usual 12, as let the farthest coordinate fit into 24; more, where they fit, for a
-// scene or Gaussians that the usual steps would be too coarse for. Throws Error where none do.
-std::uint8_t fractional_bits_for(const GaussianCloud& cloud, std::span<const std::uint32_t> gaussians) {
-  float farthest = 0;
-  for (const std::uint32_t g : gaussians)
-    for (int axis = 0; axis < 3; ++axis) farthest = std::max(farthest, std::abs(cloud.position[g][axis]));
-  int bits = kUsualFractionalBits;
-  while (bits > 0 && std::ldexp(farthest, bits) > kFixedLimit) --bits;
-  constexpr float kCoarse = 1 << kUsualFractionalBits, kStepsOfSize = 20;
-  constexpr int kMostFractionalBits = 24;
-  const float size = middle_size(cloud, gaussians);
-  const auto too_coarse = [&] {
-    return std::ldexp(farthest, bits) < kCoarse || std::ldexp(size, bits) < kStepsOfSize;
-  };
-  while (farthest > 0 && bits < kMostFractionalBits && too_coarse() &&
-         std::ldexp(farthest, bits + 1) <= kFixedLimit)
-    ++bits;
-  constexpr float kFewestSteps = 256;
-  if (std::ldexp(farthest, bits) > kFixedLimit || (farthest > 0 && std::ldexp(farthest, bits) < kFewestSteps))
-    throw Error("spz", fmt::format("coordinates up to {:g} cannot be written in 24 bits", farthest),
-                "Choose another format, or scale the scene");
-  const float step = std::ldexp(1.0f, -bits);
-  if (farthest > 0 && step > size)
-    throw Error("spz",
-                fmt::format("24 bits for coordinates up to {:g} are steps of {:g}, larger than half of the "
-                            "Gaussians ({:g})",
-                            farthest, step, size),
-                "Choose another format, or move the scene near the origin");
-  return static_cast<std::uint8_t>(bits);
-}
-
-void add_position(Buffer& out, const glm::vec3& position, int fractional_bits) {
+void add_position(Buffer& out, const glm::vec3& position, const FixedSteps& steps) {
   const glm::vec3 file = kRightUpBack.position(position);
   for (const float v : {file.x, file.y, file.z}) {
-    const float fixed = std::clamp(std::round(std::ldexp(v, fractional_bits)), -kFixedLimit, kFixedLimit);
-    const auto bits = static_cast<std::uint32_t>(static_cast<std::int32_t>(fixed));
+    const auto bits = static_cast<std::uint32_t>(static_cast<std::int32_t>(steps.rounded(v)));
     for (int shift = 0; shift < 24; shift += 8) out.push_back(static_cast<std::uint8_t>(bits >> shift));
   }
 }
@@ -87,11 +53,11 @@ void add_sh_bytes(Buffer& out, std::span<const float> rest) {
       out.push_back(to_byte(rest[c * coefficients + k] * kSigns[k] * 128.0f + 128.0f));
 }
 
-spz::Header header_of(const Scene& scene, std::span<const std::uint32_t> gaussians) {
+spz::Header header_of(const Scene& scene, std::span<const std::uint32_t> gaussians, const FixedSteps& steps) {
   spz::Header header;
   header.points = static_cast<std::uint32_t>(gaussians.size());
   header.sh_degree = static_cast<std::uint8_t>(scene.cloud.sh_degree);
-  header.fractional_bits = fractional_bits_for(scene.cloud, gaussians);
+  header.fractional_bits = static_cast<std::uint8_t>(steps.bits);
   if (scene.cloud.antialiased) header.flags |= spz::kFlagAntialiased;
   return header;
 }
@@ -99,10 +65,10 @@ spz::Header header_of(const Scene& scene, std::span<const std::uint32_t> gaussia
 // Of all Gaussians one attribute after the other, in the order of spz::attribute_bytes().
 std::array<Buffer, spz::kAttributes> attributes(const GaussianCloud& cloud,
                                                 std::span<const std::uint32_t> gaussians,
-                                                int fractional_bits) {
+                                                const FixedSteps& steps) {
   std::array<Buffer, spz::kAttributes> out;
   for (const std::uint32_t g : gaussians) {
-    add_position(out[0], cloud.position[g], fractional_bits);
+    add_position(out[0], cloud.position[g], steps);
     out[1].push_back(to_byte(255.0f * cloud.opacity[g]));
     for (int c = 0; c < 3; ++c) {
       out[2].push_back(to_byte(255.0f * (cloud.f_dc[g][c] * spz::kColourScale + 0.5f)));
@@ -205,12 +171,16 @@ void write_version_4(AtomicFile& out, const spz::Header& first, std::span<const 
   for (const Buffer& stream : streams) out.write(std::as_bytes(std::span(stream)));
 }
 
-}  // namespace
-
-Losses spz_losses(const Scene& scene, std::span<const std::uint32_t> gaussians) {
+Losses spz_losses(const Scene& scene, std::span<const std::uint32_t> gaussians, const FixedSteps& steps) {
   const GaussianCloud& cloud = scene.cloud;
+  constexpr std::size_t kMostOfOlderReaders = 10'000'000;  // in Niantic's load-spz.cc of versions 1 to 3
   Losses losses;
+  if (gaussians.size() > kMostOfOlderReaders)
+    losses.add(
+        "programs with the format's older library open it as empty, as it has more than 10,000,000 "
+        "Gaussians");
   losses.add("positions are rounded to 24 bits, all other values to 8 to 10 bits");
+  losses.add(steps.moved(cloud, gaussians));
   losses.add(clamped_colours(cloud, gaussians, spz::kColourRange));
   losses.add(clamped_log_scales(cloud, gaussians, spz::kLogScaleRange));
   losses.add(clamped_sh(cloud, gaussians, spz::kShByteRange));
@@ -219,26 +189,31 @@ Losses spz_losses(const Scene& scene, std::span<const std::uint32_t> gaussians) 
   return losses;
 }
 
+}  // namespace
+
 std::string write_spz(AtomicFile& out, const Scene& scene, std::span<const std::uint32_t> gaussians,
                       const SaveOptions& options) {
-  const spz::Header header = header_of(scene, gaussians);
-  const auto packed = attributes(scene.cloud, gaussians, header.fractional_bits);
+  const FixedSteps steps(scene.cloud, gaussians);
+  steps.check("spz", scene.cloud, gaussians);
+  const spz::Header header = header_of(scene, gaussians, steps);
+  const auto packed = attributes(scene.cloud, gaussians, steps);
   if (options.spz_version == 4)
     write_version_4(out, header, packed, options.up);
   else
     write_version_3(out, header, packed, options.up);
-  return spz_losses(scene, gaussians).sentence();
+  return spz_losses(scene, gaussians, steps).sentence();
 }
 
 FormatPlan plan_spz(const Scene& scene, std::span<const std::uint32_t> gaussians, bool) {
   const std::vector<std::uint32_t> sample = spread_runs(gaussians);
+  const FixedSteps steps(scene.cloud, gaussians);
   std::size_t packed = 0;
-  for (const Buffer& attribute : attributes(scene.cloud, sample, kUsualFractionalBits))
+  for (const Buffer& attribute : attributes(scene.cloud, sample, steps))
     packed += deflated_bytes(std::as_bytes(std::span(attribute)));
   return {.bytes = packed * gaussians.size() / std::max<std::size_t>(1, sample.size()) + 64,
           .about = true,
           .kept = "What the scene says of Gaussians, quantised and packed.",
-          .lost = spz_losses(scene, gaussians).in_full()};
+          .lost = spz_losses(scene, gaussians, steps).in_full()};
 }
 
 }  // namespace splatcut

@@ -103,9 +103,7 @@ const std::string& LodIndex::name_of_piece(std::size_t index) const {
 template <class Read>
 auto of_index(const MappedFile& file, const Read& read) {
   try {
-    const json text =
-        parse_json(file.path(), {reinterpret_cast<const char*>(file.bytes().data()), file.bytes().size()});
-    return read(text);
+    return read(parse_json(file.path(), file.text()));
   } catch (const json::exception& error) {
     refuse_index(file, fmt::format("is not the index of a streamed scene ({})", fault_of(error)));
   }
@@ -143,9 +141,8 @@ SceneLevels streamed_levels(const MappedFile& file) {
 }
 
 bool is_streamed_sog(const MappedFile& file) {
-  const std::string_view text(reinterpret_cast<const char*>(file.bytes().data()), file.bytes().size());
-  const std::size_t first = text.find_first_not_of(" \t\r\n");
-  return first != text.npos && text[first] == '{' && text.find("\"filenames\"") != text.npos &&
+  const std::string_view text = file.text();
+  return begins_as_json(file) && text.find("\"filenames\"") != text.npos &&
          text.find("\"tree\"") != text.npos;
 }
 

@@ -17,6 +17,8 @@ namespace splatcut {
 namespace {
 
 constexpr std::size_t kMaxHeaderBytes = 1 << 20;  // real headers have about 1.5 kB
+constexpr std::size_t kMostParts =
+    4096;  // elements, and properties of one: each is compared with all before it
 
 struct TypeName {
   const char* name;
@@ -58,9 +60,8 @@ void parse_property(const std::filesystem::path& path, std::span<const std::stri
   }
   if (words.size() != 3) throw Error(path.string(), fmt::format("bad header line \"{}\"", line));
   const PlyType type = type_from_name(path, words[1], line);
-  constexpr std::size_t kMost = 4096;  // each is compared with all before it
-  if (element.properties.size() == kMost)
-    throw Error(path.string(), fmt::format("an element has more than {} properties", kMost));
+  if (element.properties.size() == kMostParts)
+    throw Error(path.string(), fmt::format("an element has more than {} properties", kMostParts));
   if (element.find(words[2]))
     throw Error(path.string(), fmt::format("property \"{}\" appears twice", words[2]));
   element.properties.push_back({std::string(words[2]), type, element.row_bytes});
@@ -162,6 +163,8 @@ PlyHeader parse_ply_header(const std::filesystem::path& path, std::span<const st
                     "Convert the file to binary_little_endian");
       has_format = true;
     } else if (words[0] == "element") {
+      if (header.elements.size() == kMostParts)
+        throw Error(path.string(), fmt::format("the header has more than {} elements", kMostParts));
       PlyElement element = parse_element(path, words, line);
       if (header.find(element.name))
         throw Error(path.string(), fmt::format("the element \"{}\" appears twice", element.name));

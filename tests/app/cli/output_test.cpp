@@ -117,7 +117,7 @@ TEST_CASE("output: a name that is too long for what is written first is refused 
   const std::string longest(241, 'a');
   write_text_file(place / longest, "text");
   CHECK(says([&] { write_text_file(place / (longest + "a"), "text"); },
-             "name is too long. Choose one of at most 241 letters"));
+             "name is too long. Choose one of at most 241 bytes"));
 }
 
 TEST_CASE("output: a file is held by one process, and what a killed one left is written over") {

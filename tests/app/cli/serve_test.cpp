@@ -366,3 +366,16 @@ TEST_CASE("serve: the Python of docs/serve.md does what it says") {
   CHECK(place.text("preview.png").starts_with("\x89PNG"));
   CHECK(place.text("object.ply").starts_with("ply"));
 }
+
+TEST_CASE("serve says where what was said first has fewer meanings than the one asked for") {
+  int fewer = 0;
+  for (const char* thing : {"apple", "mug", "orange", "plant", "books"}) {
+    const Said said = talk({opened(), click_on(thing), request("choice", {{"choice", 3}})});
+    const json& reply = said.replies.at(2);
+    REQUIRE(reply["ok"]);
+    const bool is_fewer = !reply.contains("choices") || reply["choices"] < 3;
+    CHECK((reply["doubts"].dump().find("what was said first can mean") != std::string::npos) == is_fewer);
+    fewer += is_fewer;
+  }
+  CHECK(fewer > 0);
+}

@@ -1,6 +1,7 @@
 // .spz and compressed .ply, written by hand and by our own writers.
 #include <fmt/format.h>
 
+#include "output_helpers.h"
 #include "quick.h"
 #include "scene_file_helpers.h"
 #include "synthetic_cloud.h"
@@ -263,4 +264,70 @@ TEST_CASE("ply: normals that say something are said to be lost, zeros are not") 
   write(folder / "one.ply", zeros);
   CHECK(load_scene(folder / "zeros.ply").other_properties.empty());
   CHECK(load_scene(folder / "one.ply").other_properties == std::vector<std::string>{"nz"});
+}
+
+TEST_CASE("spz: a stray that makes all positions coarse is said, and named where nothing can be written") {
+  const Folder folder;
+  Scene scene;
+  scene.cloud = varied_cloud(3000, 0);
+  for (glm::vec3& scale : scene.cloud.scale) scale = glm::vec3(0.02f);
+  const auto said = [&] { return save_scene(folder / "a.spz", scene, {}, SceneFormat::kSpz).loss; };
+  CHECK(said().find("their size") == std::string::npos);
+  scene.cloud.position[70] = {0, 1.2e5f, 0};
+  const std::string lost = said();
+  CAPTURE(lost);
+  LoadOptions axes;
+  axes.spz_axes = SpzAxes::kRub;
+  const Scene got = load_scene(folder / "a.spz", axes);
+  int moved = 0;
+  for (std::size_t g = 0; g < got.cloud.size(); ++g)
+    moved += glm::distance(got.cloud.position[g], scene.cloud.position[got.cloud.file_row[g]]) > 0.01f;
+  CHECK(moved > 30);
+  CHECK(mentions(lost, {fmt::format("{} Gaussians move by more than half their size", moved).c_str(),
+                        "1 Gaussian lies farther than", "1.2e+05", "without it positions would be finer"}));
+  scene.cloud.position[70].y = 1e6f;
+  CHECK_THROWS_WITH_AS(said(), doctest::Contains("because 1 Gaussian lies farther than"), Error);
+  CHECK_THROWS_WITH_AS(said(), doctest::Contains("Delete what lies there"), Error);
+  // All of it is far away: that helps, and is said; where nothing does, nothing is advised.
+  for (std::size_t g = 0; g < scene.cloud.size(); ++g) scene.cloud.position[g] += glm::vec3(1e6f, 0, 0);
+  scene.cloud.position[70] = scene.cloud.position[71];
+  CHECK_THROWS_WITH_AS(said(), doctest::Contains("move the scene near the origin"), Error);
+  for (std::size_t g = 0; g < scene.cloud.size(); g += 2) scene.cloud.position[g].x *= -1;
+  CHECK(what_is_said(said).find("near the origin") == std::string::npos);
+  CHECK_THROWS_WITH_AS(said(), doctest::Contains("Choose another format"), Error);
+}
+
+TEST_CASE("sog: Gaussians of a wide scene that move by more than half their size are said") {
+  const Folder folder;
+  Scene scene;
+  scene.cloud = varied_cloud(2000, 0);
+  for (glm::vec3& scale : scene.cloud.scale) scale = glm::vec3(0.02f);
+  const auto said = [&] { return save_scene(folder / "a.sog", scene, {}, SceneFormat::kSog).loss; };
+  CHECK(said().find("their size") == std::string::npos);
+  for (glm::vec3& p : scene.cloud.position) p *= 1000;
+  const std::string lost = said();
+  CAPTURE(lost);
+  const Scene got = load_scene(folder / "a.sog");  // in the order of ours
+  int moved = 0;
+  for (std::size_t g = 0; g < got.cloud.size(); ++g)
+    moved += std::ranges::none_of(scene.cloud.position, [&](const glm::vec3& p) {
+      return glm::distance(p, got.cloud.position[g]) <= 0.01f;
+    });
+  CHECK(moved > 1000);
+  CHECK(mentions(lost, {fmt::format("{} Gaussians move by more than half their size", moved).c_str()}));
+}
+
+TEST_CASE("splat: a flat Gaussian is written as thin, not as nothing") {
+  const Folder folder;
+  Scene scene;
+  scene.cloud = varied_cloud(20, 0);
+  for (glm::vec3& scale : scene.cloud.scale) scale = {0.01f, 0.02f, 0};
+  save_scene(folder / "a.splat", scene, {}, SceneFormat::kSplat);
+  const std::string bytes = text_of(folder / "a.splat");
+  for (std::size_t row = 0; row < 20; ++row) {
+    float thin = 0;
+    std::memcpy(&thin, bytes.data() + row * 32 + 20, sizeof thin);
+    CHECK(thin > 0);
+    CHECK(thin < 1e-15f);
+  }
 }

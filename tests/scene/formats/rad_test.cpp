@@ -257,3 +257,29 @@ QUICK_CASE("rad", "rad: damaged files are refused, each with what is wrong") {
   write(folder / "a.radc", good);
   CHECK(mentions(refusal(folder / "a.radc"), {"piece of a scene of Spark"}));
 }
+
+TEST_CASE("rad: a file that many chunks name counts once for what it may unpack to") {
+  const Folder folder;
+  constexpr std::size_t kMany = 600'000, kSmall = 8;
+  const auto zeros = [](std::size_t count) {
+    std::vector<RadProperty> all;
+    for (const auto& [name, numbers] :
+         {std::pair{"center", 3}, {"alpha", 1}, {"rgb", 3}, {"scales", 3}, {"orientation", 3}})
+      all.push_back({name, "f32", std::string(4 * static_cast<std::size_t>(numbers) * count, '\0')});
+    return all;
+  };
+  std::string all;
+  json list = json::array();
+  for (std::size_t i = 0; i <= kSmall; ++i) {
+    const std::size_t count = i < kSmall ? 1 : kMany;
+    const std::string chunk = chunk_of(i, count, zeros(count), true);
+    list.push_back({{"offset", all.size()}, {"bytes", chunk.size()}, {"filename", "all.radc"}});
+    all += chunk;
+  }
+  write(folder / "all.radc", all);
+  CHECK(mentions(
+      refused(folder,
+              with_text("RAD0",
+                        {{"version", 1}, {"type", "gsplat"}, {"count", kMany + kSmall}, {"chunks", list}})),
+      {"no scene packs so well"}));
+}

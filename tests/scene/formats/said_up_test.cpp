@@ -3,8 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "scene/formats/axes.h"
 #include "scene/formats/merged_scene.h"
+#include "scene/formats/spz_axes.h"
 #include "scene/packing/zip_file.h"
 #include "scene_file_helpers.h"
 

@@ -1,7 +1,7 @@
 // The axes of .spz: said by the file, by the cameras, by the user, or the format's own.
+#include "scene/formats/spz_axes.h"
 #include "places.h"
 #include "quick.h"
-#include "scene/formats/axes.h"
 #include "scene/raster/guessed_up.h"
 #include "scene_file_helpers.h"
 

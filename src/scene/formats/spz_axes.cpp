@@ -1,4 +1,4 @@
-#include "scene/formats/axes.h"
+#include "scene/formats/spz_axes.h"
 
 namespace splatcut {
 

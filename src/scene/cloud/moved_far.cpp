@@ -1,0 +1,31 @@
+#include "scene/cloud/moved_far.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace splatcut {
+
+std::string moved_far(const GaussianCloud& cloud, std::span<const std::uint32_t> gaussians, float sizes,
+                      const std::function<glm::vec3(std::size_t i)>& read_back) {
+  constexpr float kFar = 10;                   // sizes: one alone is said
+  constexpr std::size_t kOfSoManySeen = 1000;  // fewer that move less are lost among the others
+  std::size_t count = 0, far = 0;
+  float farthest = 0;
+  for (std::size_t i = 0; i < gaussians.size(); ++i) {
+    const glm::vec3& size = cloud.scale[gaussians[i]];
+    const float moves = glm::distance(cloud.position[gaussians[i]], read_back(i));
+    const float largest = std::max({size.x, size.y, size.z});
+    if (moves <= sizes * largest) continue;
+    ++count;
+    far += moves > kFar * largest;
+    farthest = std::max(farthest, moves);
+  }
+  if (far == 0 && count * kOfSoManySeen <= gaussians.size()) return {};
+  const std::string times =
+      sizes == kVisibly ? "half their size" : fmt::format("{:g} times their size", sizes);
+  return fmt::format("{} Gaussian{} by more than {}, up to {:.2g} units", count,
+                     count == 1 ? " moves" : "s move", times, farthest);
+}
+
+}  // namespace splatcut
