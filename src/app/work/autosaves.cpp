@@ -85,8 +85,8 @@ void Autosaves::hold_left_behind(const std::filesystem::path& folder) {
 }
 
 void Autosaves::hold_own(const std::filesystem::path& folder) {
-  constexpr int kMostPrograms = 100;
-  for (int number = 1; number <= kMostPrograms && own_.lock < 0; ++number) {
+  constexpr int kMostFiles = 10'000;  // of programs that run, and of work that was left
+  for (int number = 1; number <= kMostFiles && own_.lock < 0; ++number) {
     const std::string middle = number == 1 ? "" : fmt::format(".{}", number);
     const std::filesystem::path file = folder / (kFirst + middle + kLast);
     std::error_code unreadable;
@@ -105,8 +105,7 @@ std::vector<std::filesystem::path> Autosaves::left_behind() const {
 }
 
 void Autosaves::leave_own() {
-  constexpr std::size_t kMostLeft = 20;
-  if (own_.lock < 0 || left_.size() >= kMostLeft) return;
+  if (own_.lock < 0) return;
   own_.written = std::filesystem::file_time_type::clock::now();
   left_.push_back(std::exchange(own_, {}));
   hold_own(folder_);
