@@ -17,6 +17,19 @@ glm::quat rotation_of(const ScenePlace& place) {
          glm::angleAxis(angles.x, glm::vec3(1, 0, 0));
 }
 
+// The angles of ScenePlace, degrees, that make this rotation. Where y is 90 or -90 only the sum (or the
+// difference) of the two others counts: z is 0 then. x is measured after z and y are taken back, so that all
+// three together are the rotation also near there.
+glm::vec3 angles_deg(const glm::quat& rotation) {
+  constexpr double kUpended = 2e-6;  // cosine of y; what the rounding of a product of rotations leaves of 0
+  const glm::dmat3 m = glm::mat3_cast(glm::normalize(glm::dquat(rotation)));  // m[column][row]
+  const double z = std::hypot(m[0][0], m[0][1]) < kUpended ? 0 : std::atan2(m[0][1], m[0][0]);
+  const double c = std::cos(z), s = std::sin(z);
+  const double y = std::atan2(-m[0][2], c * m[0][0] + s * m[0][1]);
+  const double x = std::atan2(s * m[2][0] - c * m[2][1], c * m[1][1] - s * m[1][0]);
+  return glm::degrees(glm::dvec3(x, y, z));
+}
+
 bool finite(const glm::vec3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
@@ -100,14 +113,14 @@ ScenePlace changed(const SceneSource& file, ScenePlace place, const PlacingChang
   constexpr float kLeastScale = 1e-3f, kMostScale = 1e3f;
   place.move += change.move_world;
   if (change.angle_rad != 0)  // angles that say the same would be others
-    place.turn_deg = glm::degrees(glm::eulerAngles(change.turn * rotation_of(place)));
+    place.turn_deg = angles_deg(change.turn * rotation_of(place));
   if (change.scale == 1) return place;
   return scaled_on_foot(file, place, glm::clamp(place.scale * change.scale, kLeastScale, kMostScale),
                         up_world);
 }
 
 ScenePlace stood_upright(const SceneSource& file, ScenePlace place, const glm::vec3& up_world) {
-  place.turn_deg = glm::degrees(glm::eulerAngles(turn_between(file.views->up_world, up_world)));
+  place.turn_deg = angles_deg(turn_between(file.views->up_world, up_world));
   return place;
 }
 
