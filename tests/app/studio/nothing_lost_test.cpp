@@ -1,0 +1,62 @@
+// What was asked for is done, or it is said that it is not: commands that wait, scenes that are opened
+// meanwhile, cuts that fail.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <string>
+
+#include "app/document/words.h"
+#include "scene/formats/scene_file.h"
+#include "several_scenes.h"
+
+using namespace splatcut;
+using namespace splatcut::testing;
+
+namespace {
+
+// Without a frame, so that its cut has not begun.
+void click_at_once(Hands& hands, const glm::vec2& at) {
+  hands.studio().apply(AddStroke{hands.studio().viewport().pane_camera(),
+                                 {SeedLabel::kObject, 4, {hands.in_viewport(hands.app.screen_of(at))}}});
+  REQUIRE(hands.studio().cuts().next() != 0);
+}
+
+bool was_said(Hands& hands, const std::string& words) {
+  return std::ranges::any_of(hands.studio().messages(), [&](const Message& message) {
+    return message.text.find(words) != std::string::npos;
+  });
+}
+
+bool is_step(Hands& hands, const std::string& title) {
+  return std::ranges::any_of(hands.studio().history().entries(), [&](const History::Entry& entry) {
+    return entry.title.find(title) != std::string::npos;
+  });
+}
+
+}  // namespace
+
+TEST_CASE("nothing lost: a file that is moved before its click is cut takes the click along") {
+  Hands patient(false), hasty(false);
+  const auto labels = [](Hands& hands, bool waits) {
+    Studio& studio = hands.studio();
+    add(hands, kSmallSample);  // its twin
+    const Camera here = studio.viewport().pane_camera();
+    const glm::vec3 right = glm::transpose(here.camera_from_world_rotation)[0];
+    const float size = studio.camera().scene_size();
+    studio.apply(PlaceScene{last_file(hands).id, {3 * size * right, {0, 0, 0}, 1}});
+    REQUIRE(hands.app.settle());
+    studio.apply(GoToCamera{moved(here, {{1, 0, 0, 0}, 1, {0, 0, 0}, 3 * size * right})});
+    REQUIRE(hands.app.settle());
+    click_at_once(hands, kOnApple);
+    if (waits) REQUIRE(hands.app.settle());
+    studio.apply(PlaceScene{last_file(hands).id, {3.5f * size * right, {0, 90, 0}, 1}});
+    REQUIRE(hands.app.settle());
+    return active_by_row(studio);
+  };
+  const auto expected = labels(patient, true), found = labels(hasty, false);
+  REQUIRE(count_flags(expected) > 0);
+  CHECK(iou_of(found, expected) > 0.95);
+}
