@@ -1,15 +1,35 @@
 #include "segment/session/cut_request.h"
 
 #include <algorithm>
+#include <mutex>
 #include <span>
 #include <string_view>
 #include <type_traits>
+#include <unordered_map>
 
 #include "core/byte_hash.h"
 
 namespace splatcut {
 
 namespace {
+
+// Keys of a whole history hold the same few arrays again and again, which never change: each is read once.
+std::uint64_t hash_of(const SeenGaussians& seen) {
+  struct Known {
+    SeenGaussians::weak_type array;
+    std::uint64_t hash = 0;
+  };
+  static std::mutex mutex;
+  static std::unordered_map<const void*, Known> known;  // by address, which is not used again before
+  const std::lock_guard lock(mutex);
+  Known& one = known[seen.get()];
+  if (one.array.lock() == seen) return one.hash;
+  one = {seen, hash_bytes(std::as_bytes(std::span(*seen)))};
+  const std::uint64_t hash = one.hash;
+  constexpr std::size_t kMostKnown = 1024;
+  if (known.size() > kMostKnown) std::erase_if(known, [](const auto& k) { return k.second.array.expired(); });
+  return hash;
+}
 
 // Bytes in which every list says its length first, so that no two requests share them.
 class Key {
@@ -47,7 +67,7 @@ class Key {
   }
   void seen(const SeenGaussians& seen) {
     number(seen != nullptr);
-    if (seen) number(hash_bytes(std::as_bytes(std::span(*seen))));
+    if (seen) number(hash_of(seen));
   }
   void stroked(const StrokedView& view) {
     camera(view.camera);

@@ -1,0 +1,57 @@
+// What edits make of labels: who has what, what is counted, what a lock costs; and how a history is read
+// again.
+#include <doctest/doctest.h>
+
+#include <chrono>
+#include <fstream>
+#include <random>
+
+#include "app/document/document_edits.h"
+#include "core/json_file.h"
+#include "hands.h"
+#include "reopened.h"
+#include "synthetic_cloud.h"
+
+using namespace splatcut;
+using namespace splatcut::testing;
+
+namespace {
+
+Flags some_flags(std::mt19937& random, std::size_t n, unsigned values) {
+  if (random() % 4 == 0) return nullptr;
+  std::vector<std::uint8_t> flags(n);
+  for (std::uint8_t& flag : flags) flag = static_cast<std::uint8_t>(random() % values);
+  return make_flags(std::move(flags));
+}
+
+Document some_objects(std::mt19937& random, std::size_t n) {
+  constexpr int kObjects = 6;
+  Document document;
+  document.deleted = some_flags(random, n, 2);
+  for (int i = 0; i < kObjects; ++i) {
+    ObjectItem& object = add_object(&document);
+    object.cut = some_flags(random, n, 2);
+    object.hand = some_flags(random, n, 4);
+    object.of_others = some_flags(random, n, 2);
+    if (i > 0 && random() % 2) object.within = document.objects[random() % static_cast<unsigned>(i)].id;
+  }
+  return document;
+}
+
+double seconds_since(const std::chrono::steady_clock::time_point& start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace
+
+TEST_CASE("object labels: keys read a large array once, however often they are made") {
+  ObjectItem object;
+  object.views.push_back({{}, {}, make_flags(std::vector<std::uint8_t>(std::size_t{64} << 20, 1))});
+  const auto start = std::chrono::steady_clock::now();
+  const std::string key = cut_key({}, object);
+  for (int i = 0; i < 1000; ++i) CHECK(cut_key({}, object) == key);
+  MESSAGE(seconds_since(start), " s for 1,001 keys");
+  CHECK(seconds_since(start) < 2);
+  object.views[0].seen = make_flags(std::vector<std::uint8_t>(std::size_t{64} << 20, 0));
+  CHECK(cut_key({}, object) != key);
+}
