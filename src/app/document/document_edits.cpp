@@ -213,7 +213,33 @@ std::string edit(Document* document, const RemoveStroke& command, const EditCont
                      any_rest ? ", and those on the rest with it" : "", object.name);
 }
 
-void take_back_sharing(const History& history, const RemoveStroke& gone, ObjectItem* object) {
+namespace {
+
+// What the object left to others in `before`, and with a stroke in `made` no more: it leaves that again,
+// unless it leaves some of that meanwhile, and not because it is locked.
+void leave_again(const Document& document, const ObjectItem& before, const ObjectItem& made,
+                 ObjectItem* object, std::size_t gaussians) {
+  if (!before.of_others || !object->leaves_also.empty()) return;
+  const Flags kept = kept_by_locked(document, *object, gaussians);
+  const auto has = [](const Flags& flags, std::size_t g) { return flags && (*flags)[g]; };
+  std::vector<std::uint8_t> left = *before.of_others;
+  bool ended = false;
+  for (std::size_t g = 0; g < gaussians; ++g) {
+    const bool ended_here = left[g] && !has(made.of_others, g), now = has(object->of_others, g);
+    if (ended_here && now && !has(kept, g)) return;
+    ended |= ended_here;
+    left[g] |= now;
+  }
+  if (!ended) return;
+  set_of_others(object, make_flags(std::move(left)));
+  object->leaves_also = before.leaves_also;
+}
+
+}  // namespace
+
+void take_back_sharing(const History& history, const RemoveStroke& gone, Document* document,
+                       std::size_t gaussians) {
+  ObjectItem* object = document->find(document->active);
   const ObjectItem* now = history.now().find(object->id);
   const Camera& camera = now->views.at(gone.view).camera;
   const auto holds = [&](const ObjectItem& item) {
@@ -231,7 +257,7 @@ void take_back_sharing(const History& history, const RemoveStroke& gone, ObjectI
       made = before;
       continue;
     }
-    if (before->of_others && !made->of_others && !object->of_others) set_of_others(object, before->of_others);
+    leave_again(*document, *before, *made, object, gaussians);
     if (before->among && !made->among && !object->among) object->among = before->among;
     return;
   }
