@@ -40,7 +40,7 @@ const char* first_stroke_word(const ObjectItem& object) {
 void settle_with_others(Document* document, ObjectItem* object, std::span<const std::int32_t> hits,
                         bool first, const EditContext& context) {
   const std::size_t n = context.cloud.size();
-  if (const ObjectItem* kept = locked_under(*document, *object, hits, n))
+  if (const ObjectItem* kept = locked_under(*document, *object, hits))
     throw Error(kept->name, "is locked, and no other object takes what it has",
                 "Unlock it in the objects panel");
   if (first) {
@@ -51,7 +51,7 @@ void settle_with_others(Document* document, ObjectItem* object, std::span<const 
                 base_colour(context.cloud, static_cast<std::size_t>(hits[hits.size() / 2])));
     leave_to_others(*document, object, n);
   }
-  if (means_what_is_left(*document, *object, hits, n)) share_again(*document, object, n);
+  if (means_what_is_left(*document, *object, hits)) share_again(*document, object, n);
   leave_to_locked(*document, object, n);
   if (reaches_beyond(*object, hits)) object->among = nullptr;
 }
@@ -155,8 +155,8 @@ Flags changed_by(const Document& document, const AddStroke& stroke, std::vector<
   if (stroke.stroke.label == SeedLabel::kObject) {
     if (object.of_others != left) set_of_others(&object, left);
     const std::size_t n = context.cloud.size();
-    if (locked_under(document, object, stroke.hits, n)) after = before;
-    if (means_what_is_left(document, object, stroke.hits, n)) share_again(document, &object, n);
+    if (locked_under(document, object, stroke.hits)) after = before;
+    if (means_what_is_left(document, object, stroke.hits)) share_again(document, &object, n);
   }
   std::vector<std::uint8_t> change = with_cut(document, std::move(before));
   const std::vector<std::uint8_t> then = with_cut(std::move(stroked_document), std::move(after));

@@ -63,7 +63,7 @@ std::string edit_by_shape(Document* document, const Selection& region, SetOperat
         !(document->deleted && (*document->deleted)[g]))
       added.push_back(static_cast<std::int32_t>(g));
   if (first) leave_to_others(*document, &object, n);
-  if (means_what_is_left(*document, object, added, n)) {
+  if (means_what_is_left(*document, object, added)) {
     if (first) share_again(*document, &object, n);
     return edit_selection(document, region, operation, context);
   }

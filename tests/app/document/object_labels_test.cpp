@@ -44,6 +44,47 @@ double seconds_since(const std::chrono::steady_clock::time_point& start) {
 
 }  // namespace
 
+TEST_CASE("object labels: one of them is as all of them are, and a lock leaves each object what it had") {
+  constexpr std::size_t kFew = 40;
+  const GaussianCloud cloud = random_cloud(kFew, 1, 0);
+  for (unsigned seed = 0; seed < 50; ++seed) {
+    std::mt19937 random(seed);
+    Document document = some_objects(random, kFew), slowly = document;
+    for (const ObjectItem& object : document.objects) {
+      const std::vector<std::uint8_t> all = labels_of(document, object, kFew);
+      for (std::size_t g = 0; g < kFew; ++g) REQUIRE(has(document, object, g) == (all[g] != 0));
+    }
+    edit(&document, LockObject{2, true}, {cloud});
+    slowly.find(2)->locked = true;
+    for (ObjectItem& other : slowly.objects)
+      if (other.id != 2) leave_to_locked(slowly, &other, kFew);
+    for (std::size_t i = 0; i < document.objects.size(); ++i) {
+      const Flags &a = document.objects[i].of_others, &b = slowly.objects[i].of_others;
+      INFO(seed, " ", i);
+      REQUIRE((a != nullptr) == (b != nullptr));
+      if (a) REQUIRE(*a == *b);
+    }
+  }
+}
+
+TEST_CASE(
+    "object labels: locking hundred objects one by one keeps the window waiting for less than a second "
+    "each") {
+  constexpr std::size_t kGaussians = 60000, kObjects = 100;
+  const GaussianCloud cloud = random_cloud(kGaussians, 1, 0);
+  Document document;
+  for (std::size_t i = 0; i < kObjects; ++i) {
+    std::vector<std::uint8_t> cut(kGaussians, 0);
+    for (std::size_t g = i; g < kGaussians; g += kObjects) cut[g] = 1;
+    add_object(&document).cut = make_flags(std::move(cut));
+  }
+  const auto start = std::chrono::steady_clock::now();
+  for (ObjectId id = 1; id <= kObjects; ++id) edit(&document, LockObject{id, true}, {cloud});
+  MESSAGE(seconds_since(start), " s for all locks");
+  CHECK(seconds_since(start) < 3);
+  CHECK(count_flags(*document.objects[0].of_others) == kGaussians - kGaussians / kObjects);
+}
+
 TEST_CASE("object labels: keys read a large array once, however often they are made") {
   ObjectItem object;
   object.views.push_back({{}, {}, make_flags(std::vector<std::uint8_t>(std::size_t{64} << 20, 1))});
