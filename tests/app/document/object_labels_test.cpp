@@ -96,3 +96,26 @@ TEST_CASE("object labels: keys read a large array once, however often they are m
   object.views[0].seen = make_flags(std::vector<std::uint8_t>(std::size_t{64} << 20, 0));
   CHECK(cut_key({}, object) != key);
 }
+
+TEST_CASE("object labels: the list of steps names the same objects once work is opened again") {
+  const ScratchFolder folder("row_titles");
+  Hands hands;
+  Studio& studio = hands.studio();
+  const ObjectId apple = studio.document().active;
+  studio.apply(NewObject{});
+  studio.apply(EditSelection{SelectionEdit::kAll});
+  REQUIRE(hands.app.settle());
+  studio.apply(EditSelection{SelectionEdit::kInvert});
+  REQUIRE(hands.app.settle());
+  studio.apply(RenameObject{apple, "Apple"});
+  const auto rows = [](const Studio& s) {
+    std::vector<std::string> titles;
+    for (std::size_t i = 1; i < s.history().entries().size(); ++i)
+      titles.push_back(row_title(s.history(), i));
+    return titles;
+  };
+  const auto expected = rows(studio);
+  REQUIRE(expected.back().find("(Apple)") != std::string::npos);
+  const auto again = reopened(hands, folder);
+  CHECK(rows(again->studio()) == expected);
+}
