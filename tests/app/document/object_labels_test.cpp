@@ -85,6 +85,23 @@ TEST_CASE(
   CHECK(count_flags(*document.objects[0].of_others) == kGaussians - kGaussians / kObjects);
 }
 
+TEST_CASE("object labels: what an edit adds is what changes, and what is deleted is not marked") {
+  const GaussianCloud cloud = random_cloud(4, 1, 0);
+  const EditContext context{cloud};
+  Document document;
+  add_object(&document);
+  document.deleted = make_flags({0, 0, 0, 1});
+  CHECK(
+      edit_selection(&document, {0, 1, 1, 1}, SetOperation::kAdd, context).starts_with("2 Gaussians added"));
+  CHECK((*document.objects[0].hand)[3] == kFollowCut);
+  edit(&document, EditSelection{SelectionEdit::kAll}, context);
+  CHECK((*document.objects[0].hand)[3] == kFollowCut);
+  ObjectItem& part = add_object(&document);
+  part.within = 1;
+  document.objects[0].hand = make_flags({kHandObject, 0, 0, 0});
+  CHECK(edit_selection(&document, {1, 1, 0, 0}, SetOperation::kAdd, context).starts_with("1 Gaussian added"));
+}
+
 TEST_CASE("object labels: keys read a large array once, however often they are made") {
   ObjectItem object;
   object.views.push_back({{}, {}, make_flags(std::vector<std::uint8_t>(std::size_t{64} << 20, 1))});
