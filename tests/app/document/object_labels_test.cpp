@@ -136,3 +136,24 @@ TEST_CASE("object labels: the list of steps names the same objects once work is 
   const auto again = reopened(hands, folder);
   CHECK(rows(again->studio()) == expected);
 }
+
+TEST_CASE("object labels: all objects in one file do not take a file of others along") {
+  const ScratchFolder folder("foreign_names");
+  Hands hands;
+  const std::string cameras = "{\"cameras\": []}\n";
+  std::ofstream(folder / "all.json") << cameras;
+  Export all;
+  all.request = {.what = ExportWhat::kOneFile, .path = folder / "all.ply", .overwrite = true};
+  hands.studio().apply(all);
+  REQUIRE(hands.app.settle());
+  CHECK(hands.said().find("holds something else") != std::string::npos);
+  CHECK(json_of_file(folder / "all.json").contains("cameras"));
+  CHECK_FALSE(std::filesystem::exists(folder / "all.ply"));
+  std::filesystem::remove(folder / "all.json");
+  for (int again = 0; again < 2; ++again) {  // its own names are written over
+    hands.studio().apply(all);
+    REQUIRE(hands.app.settle());
+    CHECK(json_of_file(folder / "all.json").contains("objects"));
+  }
+  CHECK(hands.said().find("saved to") != std::string::npos);
+}
