@@ -65,7 +65,8 @@ std::string without_cutout(const Studio& s) {
 std::string without_strokes(const Studio& s) {
   if (!s.scene()) return without_scene(s);
   const ObjectItem* active = s.document().active_object();
-  return active && !active->views.empty() ? "" : "The object has no strokes";
+  if (!active || active->views.empty()) return "The object has no strokes";
+  return active->locked ? active->name + " is locked" : "";
 }
 
 std::string without_cameras(const Studio& s) {

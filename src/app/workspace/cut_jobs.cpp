@@ -94,6 +94,7 @@ void CutJobs::update() {
 void CutJobs::recompute() {
   const ObjectItem* object = ws_.document().active_object();
   if (!object || object->views.empty()) throw Error("", "The object has no strokes", "Click on it first");
+  if (object->locked) throw Error(object->name, "is locked", "Unlock it in the objects panel");
   want_again(*object);
   ws_.session = std::make_shared<Session>(ws_.session->scene());  // with empty caches
   ahead_.clear();

@@ -33,7 +33,8 @@ class CutJobs {
 
   void reset();   // stops and forgets everything of the last scene
   void update();  // starts and stops cuts as the document asks; called once a frame
-  // Cuts the active object again without anything that is cached. Throws Error if it has no strokes.
+  // Cuts the active object again without anything that is cached. Throws Error if it has no strokes or is
+  // locked.
   void recompute();
   // cancel() and cancel_likelihood() stop the running cut, or the likelihood of the active object, and give
   // it up: update() does not start it again. They return false if it does not run.

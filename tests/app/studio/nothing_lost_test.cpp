@@ -38,6 +38,18 @@ bool is_step(Hands& hands, const std::string& title) {
 
 }  // namespace
 
+TEST_CASE("nothing lost: what is locked is not computed anew") {
+  Hands hands;
+  Studio& studio = hands.studio();
+  studio.apply(LockObject{studio.document().active, true});
+  const std::uint64_t cuts = studio.cuts().done();
+  CHECK_FALSE(studio.why_not(Action::kRecompute).empty());
+  studio.apply(Recompute{});
+  REQUIRE(hands.app.settle());
+  CHECK(studio.cuts().done() == cuts);
+  CHECK(hands.said().find("is locked") != std::string::npos);
+}
+
 TEST_CASE("nothing lost: a file that is moved before its click is cut takes the click along") {
   Hands patient(false), hasty(false);
   const auto labels = [](Hands& hands, bool waits) {
