@@ -50,6 +50,21 @@ TEST_CASE("nothing lost: what is locked is not computed anew") {
   CHECK(hands.said().find("is locked") != std::string::npos);
 }
 
+TEST_CASE("nothing lost: saved work from which everything is removed is unsaved") {
+  const ScratchFolder folder("emptied");
+  Hands hands;
+  Studio& studio = hands.studio();
+  studio.apply(SaveWork{folder / "apple.splatcut.json"});
+  REQUIRE(hands.app.settle());
+  CHECK_FALSE(studio.unsaved());
+  studio.apply(RemoveObject{studio.document().active});
+  REQUIRE(hands.app.settle());
+  CHECK(studio.unsaved());
+  studio.apply(Undo{});
+  REQUIRE(hands.app.settle());
+  CHECK_FALSE(studio.unsaved());
+}
+
 TEST_CASE("nothing lost: a file that is moved before its click is cut takes the click along") {
   Hands patient(false), hasty(false);
   const auto labels = [](Hands& hands, bool waits) {
