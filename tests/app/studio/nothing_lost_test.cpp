@@ -50,6 +50,20 @@ TEST_CASE("nothing lost: what is locked is not computed anew") {
   CHECK(hands.said().find("is locked") != std::string::npos);
 }
 
+TEST_CASE("nothing lost: Esc stops the first scene on its way") {
+  HeadlessApp app(kHandsWidth, kHandsHeight);
+  Studio& studio = app.studio();
+  studio.apply(OpenScene{kSample});
+  REQUIRE(studio.loading());
+  studio.run(Action::kCancel);
+  REQUIRE(app.settle());
+  CHECK_FALSE(studio.scene());
+  CHECK(studio.messages().back().text == "Cancelled");
+  app.open(kSmallSample);
+  REQUIRE(app.settle());
+  CHECK(studio.scene());
+}
+
 TEST_CASE("nothing lost: saved work from which everything is removed is unsaved") {
   const ScratchFolder folder("emptied");
   Hands hands;
