@@ -31,8 +31,10 @@ class SceneFiles {
   };
   SceneFiles(Workspace& workspace, Viewport& viewport, CutJobs& cuts, SavedWork& work, Calls calls);
 
-  void update();          // resumes preparing if a scene could not be opened; called once a frame
-  void cancel_loading();  // stops opening and changing files; the scene stays as it is
+  void update();  // resumes preparing if a scene could not be opened; called once a frame
+  // Stops opening another scene, else changing files; the scene stays as it is. A change of files that was
+  // stopped for the other scene goes on, as it does if that cannot be opened.
+  void cancel_loading();
   bool changing() const { return !changing_to_.empty(); }  // true: a change of files is under way
   bool stop_changing();                                    // cancels it; returns false if there is none
   // undo_files() and redo_files() undo or redo a change of files, if that is the next step to undo or redo.
@@ -86,6 +88,8 @@ class SceneFiles {
     std::optional<glm::vec3> put_on_world = {};  // where an added file may have come to stand in that view
   };
   void change_files(std::vector<SceneSource> files, const std::string& doing, Said said);
+  void stop_loading();
+  void go_on_changing();  // with `interrupted_`
   void say_refused(const std::vector<std::string>& refused);
   bool is_last(const OpenedScene& scene) const;
   void carry_document(const std::shared_ptr<OpenedScene>& scene, const Said& said);
@@ -106,6 +110,13 @@ class SceneFiles {
   std::uint64_t next_scene_serial_ = 1;
   std::uint32_t next_file_id_ = 1;
   std::vector<SceneSource> changing_to_;  // files of the scene that is being made; empty: none is made
+  struct Change {
+    std::vector<SceneSource> files;
+    std::string doing;
+    Said said;
+  };
+  Change last_change_;                 // it is under way where changing()
+  std::optional<Change> interrupted_;  // change that was under way when another scene was to be opened
 
   struct Fill {
     std::uint32_t file = 0;

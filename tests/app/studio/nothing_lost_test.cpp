@@ -50,6 +50,23 @@ TEST_CASE("nothing lost: what is locked is not computed anew") {
   CHECK(hands.said().find("is locked") != std::string::npos);
 }
 
+TEST_CASE("nothing lost: files that were being added are, where another scene is not opened after all") {
+  const ScratchFolder folder("interrupted_files");
+  Hands hands(false);
+  Studio& studio = hands.studio();
+  studio.apply(AddScene{small_scene(folder)});
+  SUBCASE("as it cannot be read") {
+    std::ofstream(folder / "none.ply") << "no scene";
+    studio.apply(OpenScene{folder / "none.ply"});
+  }
+  SUBCASE("as that is stopped") {
+    studio.apply(OpenScene{kSample});
+    studio.apply(Cancel{});
+  }
+  REQUIRE(hands.app.settle());
+  CHECK(studio.scene()->files.size() == 2);
+}
+
 TEST_CASE("nothing lost: Esc stops the first scene on its way") {
   HeadlessApp app(kHandsWidth, kHandsHeight);
   Studio& studio = app.studio();
