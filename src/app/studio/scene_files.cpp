@@ -344,6 +344,7 @@ void SceneFiles::opened(const std::shared_ptr<OpenedScene>& scene, const std::op
 }
 
 void SceneFiles::update() {
+  if (redo_steps_ != ws_.history.steps_serial()) undone_files_.clear();  // nothing leads to them any more
   if (!ws_.scene || ws_.tasks.busy(TaskKind::kLoad)) return;
   if (std::exchange(preparing_stopped_, false)) start_preparing();
 }

@@ -42,6 +42,8 @@ class SceneFiles {
   // the scene before the change is no longer kept, which is said.
   bool undo_files();
   bool redo_files();
+  // Number of scenes that undo and redo can go back to.
+  std::size_t scenes_kept() const { return before_files_.size() + undone_files_.size(); }
   bool stays(const History::Entry& step) const;  // true: it changed files and cannot be undone any more
   bool can_redo_files() const { return !ws_.history.can_redo() && !redo_titles().empty(); }
   // Titles, as row_title() has them, of the steps that lie behind the end of the history, the next to redo

@@ -118,3 +118,17 @@ TEST_CASE("nothing lost: a file that is moved before its click is cut takes the 
   REQUIRE(count_flags(expected) > 0);
   CHECK(iou_of(found, expected) > 0.95);
 }
+
+TEST_CASE("nothing lost: and nothing is kept that no redo leads to") {
+  const ScratchFolder folder("kept_scenes");
+  Hands hands;
+  Studio& studio = hands.studio();
+  add(hands, small_scene(folder));
+  CHECK(studio.files().scenes_kept() == 1);
+  studio.run(Action::kUndo);
+  REQUIRE(hands.app.settle());
+  CHECK(studio.files().scenes_kept() == 1);  // to redo
+  studio.apply(EditSelection{SelectionEdit::kGrow});
+  REQUIRE(hands.app.settle());
+  CHECK(studio.files().scenes_kept() == 0);
+}
