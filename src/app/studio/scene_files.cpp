@@ -154,7 +154,6 @@ void SceneFiles::stop_loading() {
   ++next_scene_serial_;  // what is on its way is not the last
   ws_.tasks.cancel(TaskKind::kLoad);
   changing_to_.clear();
-  filling_.reset();
   opening_.clear();
 }
 
@@ -269,7 +268,7 @@ void SceneFiles::carry_document(const std::shared_ptr<OpenedScene>& scene, const
     const Flags replaced = fill && scene->file(fill->file) ? carry.carried(fill->replaced) : nullptr;
     if (job.cancelled()) return;
     ws_.tasks.post([this, scene, said, replaced, before, history = std::move(history), serial] {
-      calls_.in_turn([this, scene, said, replaced, before, history, serial] {
+      calls_.at_last([this, scene, said, replaced, before, history, serial] {
         if (scene->files.front().id != ws_.scene->files.front().id) return;  // another one was opened
         if (!is_last(*scene)) return say_refused(said.refused);
         if (before != ws_.scene || serial != ws_.history.serial()) return carry_document(scene, said);

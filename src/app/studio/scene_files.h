@@ -24,8 +24,8 @@ class SceneFiles {
     // Called when the workspace has another scene and document, before the view is set up. same: it is the
     // same scene with other files in it, or with files placed otherwise.
     std::function<void(bool same)> opened;
-    // Runs a function after the edits that were asked for before it.
-    std::function<void(std::function<void()>)> in_turn;
+    // Runs a function after all commands that wait: another scene would drop them.
+    std::function<void(std::function<void()>)> at_last;
     // Returns the scene without the active object, its hole filled; null: that is not known.
     std::function<std::shared_ptr<const SceneWithout>()> without;
   };

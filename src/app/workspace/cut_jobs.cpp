@@ -159,7 +159,9 @@ void CutJobs::start(const ObjectItem& object, bool anew) {
   running_ = Known{object.id, std::move(run)};
   // If the labels have arrived already, only pictures or the heat map failed: the cut stands.
   const auto failed = [this, order] {
-    if (runs(order)) end(order.key);
+    if (!runs(order)) return;
+    end(order.key);
+    ++failed_;
   };
   for (const TaskKind kind : {TaskKind::kHover, TaskKind::kClean, TaskKind::kSeen}) ws_.tasks.cancel(kind);
   if (anew || !take_known(order))

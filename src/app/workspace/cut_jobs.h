@@ -25,6 +25,7 @@ class CutJobs {
   const CutRun* run(ObjectId object) const;
   ObjectId cutting() const { return running_ ? running_->object : 0; }  // object whose cut runs; 0: none
   std::uint64_t done() const { return done_; }                          // number of cuts finished so far
+  std::uint64_t failed() const { return failed_; }  // number of cuts that ended in an error
 
   // True if the object's labels are on their way: its cut runs, or will. A locked object keeps the cut it
   // has.
@@ -120,7 +121,7 @@ class CutJobs {
   std::string so_already_;                      // key, see note_so_already()
   std::map<ObjectId, std::vector<std::string>> doubts_said_;  // after the last cut
   std::map<ObjectId, std::string> sides_said_;                // the same, of the pictures of its sides
-  std::uint64_t next_card_serial_ = 1, started_ = 0, done_ = 0;
+  std::uint64_t next_card_serial_ = 1, started_ = 0, done_ = 0, failed_ = 0;
 };
 
 }  // namespace splatcut

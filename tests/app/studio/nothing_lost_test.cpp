@@ -38,6 +38,56 @@ bool is_step(Hands& hands, const std::string& title) {
 
 }  // namespace
 
+TEST_CASE("nothing lost: what hands take away while the cut runs is gone after it") {
+  Hands patient, hasty(false);
+  const Camera camera = patient.studio().viewport().pane_camera();
+  const glm::vec2 apple = patient.in_viewport(patient.app.screen_of(kOnApple));
+  Mask left(camera.width_px, camera.height_px, 0);
+  for (int y = 0; y < left.height(); ++y)
+    for (int x = 0; x < static_cast<int>(apple.x); ++x) left.at(x, y) = 1;
+  Volume ball = {.round = true};
+  ball.centre_world = patient.under(patient.app.screen_of(kOnApple));
+  ball.half = glm::vec3(0.02f * patient.studio().camera().scene_size());
+  Command command;
+  SUBCASE("a region") {
+    command = SelectRegion{camera, left, SetOperation::kRemove};
+  }
+  SUBCASE("all but a region") {
+    command = SelectRegion{camera, left, SetOperation::kIntersect};
+  }
+  SUBCASE("a volume") {
+    command = SelectVolume{ball, SetOperation::kRemove};
+  }
+  SUBCASE("a range") {
+    command = SelectRange{Property::kOpacity, 0, 1, SetOperation::kRemove};
+  }
+  SUBCASE("a colour") {
+    command = SelectColour{{0.7f, 0.2f, 0.15f}, 0.25f, SetOperation::kRemove};
+  }
+  const std::size_t before = patient.selected();
+  patient.studio().apply(command);
+  const std::size_t after = patient.selected();
+  REQUIRE(after < before);
+  click_at_once(hasty, kOnApple);
+  hasty.studio().apply(command);
+  CHECK(was_said(hasty, "as soon as"));
+  CHECK(static_cast<double>(hasty.selected()) == doctest::Approx(static_cast<double>(after)).epsilon(0.05));
+  CHECK(hasty.studio().history().entries().size() == patient.studio().history().entries().size());
+}
+
+TEST_CASE("nothing lost: what waits for a cut that fails is not done, and that is said") {
+  Hands hands;
+  Studio& studio = hands.studio();
+  studio.apply(SetSmoothness{studio.document().active, std::numeric_limits<float>::quiet_NaN()});
+  REQUIRE(studio.cuts().next() != 0);
+  studio.apply(DeleteSelected{});
+  REQUIRE(hands.app.settle());
+  REQUIRE(studio.cuts().failed() == 1);
+  CHECK_FALSE(studio.document().deleted);
+  CHECK(was_said(hands, "Delete from the scene: not done"));
+  CHECK_FALSE(studio.waiting());
+}
+
 TEST_CASE("nothing lost: what is locked is not computed anew") {
   Hands hands;
   Studio& studio = hands.studio();
@@ -48,6 +98,51 @@ TEST_CASE("nothing lost: what is locked is not computed anew") {
   REQUIRE(hands.app.settle());
   CHECK(studio.cuts().done() == cuts);
   CHECK(hands.said().find("is locked") != std::string::npos);
+}
+
+TEST_CASE("nothing lost: an export that waits for a cut is written before another scene is opened") {
+  const ScratchFolder folder("waiting_export");
+  Hands hands(false);
+  click_at_once(hands, kOnApple);
+  Export wanted;
+  wanted.request.path = folder / "apple.ply";
+  hands.studio().apply(wanted);
+  hands.studio().apply(OpenScene{small_scene(folder)});
+  REQUIRE(hands.app.settle());
+  CHECK(hands.studio().scene()->cloud->size() == kAdded);
+  REQUIRE(std::filesystem::exists(wanted.request.path));
+  const std::size_t apple = load_scene(wanted.request.path).cloud.size();
+  CHECK(apple > 0);
+  CHECK(apple != kAdded);
+}
+
+TEST_CASE("nothing lost: an export asked for while another scene is opened is written, or said to be not") {
+  const ScratchFolder folder("late_export");
+  Hands hands(false);
+  click_at_once(hands, kOnApple);
+  hands.studio().apply(OpenScene{small_scene(folder)});
+  Export wanted;
+  wanted.request.path = folder / "apple.ply";
+  hands.studio().apply(wanted);
+  REQUIRE(hands.app.settle());
+  CHECK(hands.studio().scene()->cloud->size() == kAdded);
+  CHECK((std::filesystem::exists(wanted.request.path) || was_said(hands, "Export: not done")));
+}
+
+TEST_CASE("nothing lost: commands that came while files changed are done") {
+  const ScratchFolder folder("waiting_edits");
+  Hands hands(false);
+  Studio& studio = hands.studio();
+  studio.apply(AddScene{small_scene(folder)});
+  click_at_once(hands, kOnApple);
+  studio.apply(EditSelection{SelectionEdit::kGrow});
+  studio.apply(EditSelection{SelectionEdit::kInvert});
+  REQUIRE(hands.app.frames_until([&] { return !studio.loading(); }));
+  REQUIRE(studio.waiting());
+  studio.apply(EditSelection{SelectionEdit::kShrink});
+  REQUIRE(hands.app.settle());
+  CHECK(studio.scene()->files.size() == 2);
+  for (const std::string title : {"Grow", "Invert", "Shrink"}) CHECK_MESSAGE(is_step(hands, title), title);
 }
 
 TEST_CASE("nothing lost: files that were being added are, where another scene is not opened after all") {
