@@ -16,8 +16,8 @@ namespace splatcut {
 
 namespace {
 
-// The same for strokes. The first settles for the object which way is up: views around it depend on it, and
-// turning the scene later is no reason to compute it again.
+// Returns the object that a stroke goes to. Its first stroke settles for it which way is up: views around it
+// depend on that, and turning the scene later is no reason to compute it again.
 ObjectItem& stroked(Document* document) {
   ObjectItem& object = target(document);
   if (object.views.empty()) {
@@ -27,7 +27,7 @@ ObjectItem& stroked(Document* document) {
   return object;
 }
 
-// What its meanings are of.
+// Returns the word for what began the object, whose meanings are offered.
 const char* first_stroke_word(const ObjectItem& object) {
   for (const StrokedView& view : object.views)
     if (!view.strokes.empty()) return view.strokes.front().is_box() ? "box" : "click";

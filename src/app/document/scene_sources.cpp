@@ -34,6 +34,8 @@ bool finite(const glm::vec3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
+constexpr float kLeastScale = 1e-3f, kMostScale = 1e3f;  // that handles and Fit reach; numbers go further
+
 Box seen_box(const SceneSource& file) {
   return glm::length(file.solid.extent()) > 0 ? file.solid : file.bounds;
 }
@@ -89,10 +91,10 @@ void stand(std::vector<SceneSource>* files) {
 }
 
 void check(const ScenePlace& place, const std::filesystem::path& file) {
-  constexpr float kLeastScale = 1e-6f, kMostScale = 1e6f, kFarthest = 1e9f;
-  if (!(place.scale >= kLeastScale && place.scale <= kMostScale))
+  constexpr float kLeast = 1e-6f, kMost = 1e6f, kFarthest = 1e9f;
+  if (!(place.scale >= kLeast && place.scale <= kMost))
     throw Error(file.filename().string(), fmt::format("it cannot be placed {:g} times as large: {:g} to {:g}",
-                                                      place.scale, kLeastScale, kMostScale));
+                                                      place.scale, kLeast, kMost));
   if (!finite(place.turn_deg)) throw Error(file.filename().string(), "the turn must be ordinary numbers");
   if (!finite(place.move) || !(glm::length(place.move) < kFarthest))
     throw Error(file.filename().string(), fmt::format("it cannot be moved by more than {:g}", kFarthest));
@@ -110,7 +112,6 @@ Similarity similarity_between(const SceneSource& before, const SceneSource& afte
 
 ScenePlace changed(const SceneSource& file, ScenePlace place, const PlacingChange& change,
                    const glm::vec3& up_world) {
-  constexpr float kLeastScale = 1e-3f, kMostScale = 1e3f;
   place.move += change.move_world;
   if (change.angle_rad != 0)  // angles that say the same would be others
     place.turn_deg = angles_deg(change.turn * rotation_of(place));
@@ -158,7 +159,7 @@ float share_of_picture(const SceneSource& file, const Camera& camera, const glm:
 }
 
 ScenePlace fitted(const SceneSource& file, const Camera& camera, const glm::vec3& up_world) {
-  constexpr float kFitted = 0.5f, kLeastScale = 1e-3f, kMostScale = 1e3f;
+  constexpr float kFitted = 0.5f;
   const float scale = file.place.scale * kFitted / share_of_picture(file, camera, up_world);
   return scaled_on_foot(file, file.place, std::clamp(scale, kLeastScale, kMostScale), up_world);
 }

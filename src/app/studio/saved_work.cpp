@@ -21,11 +21,6 @@ namespace {
 constexpr double kAutosaveAfterSeconds = 0.3, kAutosaveAtLatestSeconds = 2, kAutosaveViewAfterSeconds = 10,
                  kAutosaveAgainSeconds = 30, kRestOverWriting = 3;
 
-bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
-  std::error_code ignored;
-  return !a.empty() && !b.empty() && std::filesystem::equivalent(a, b, ignored);
-}
-
 }  // namespace
 
 SavedWork::SavedWork(Workspace& workspace, Viewport& viewport, const CutJobs& cuts)

@@ -23,8 +23,7 @@ TEST_CASE("clean objects: labels that another thread lets go of meanwhile are co
         asked.push_back(make_flags(std::move(labels)));
         CHECK(clean.known(asked.back(), {0, 1, 0}) == nullptr);
       }
-      for (; !asked.empty(); asked.pop_back())
-        std::this_thread::sleep_for(std::chrono::microseconds(50));
+      for (; !asked.empty(); asked.pop_back()) std::this_thread::sleep_for(std::chrono::microseconds(50));
     }
   };
   std::vector<std::thread> threads;

@@ -31,7 +31,8 @@ ScenePlace turned(const ScenePlace& place, const glm::quat& by) {
 
 }  // namespace
 
-TEST_CASE("scene sources: angles say the turn that they were made of, also where a file is turned by 90 about y") {
+TEST_CASE(
+    "scene sources: angles say the turn that they were made of, also where a file is turned by 90 about y") {
   constexpr float kSameDegrees = 1e-3f;
   const glm::quat none(1, 0, 0, 0), about_y = glm::angleAxis(glm::radians(15.0f), glm::vec3(0, 1, 0));
   for (int x = -180; x <= 180; x += 15)
