@@ -52,20 +52,9 @@ nlohmann::json objects_json(const std::vector<WrittenObject>& objects, const Cut
   return list;
 }
 
-RasterOutput drawn(const OpenedScene& scene, const Camera& camera, const PixelRect& part,
-                   const Flags& visible) {
-  RasterOptions options;
-  options.colour = false;
-  options.depth = true;
-  options.roi = part;
-  options.blocks = scene.blocks.get();
-  if (visible) options.shown = *visible;
-  return rasterize(*scene.cloud, camera, options);
-}
-
 // What the object has now is left to it by those that were begun while its cut was on its way.
 void leave_what_came(const OpenedScene& scene, Document* document, ObjectId came) {
-  const DrawnPart part = [&](const auto&... order) { return drawn(scene, order...); };
+  const DrawnPart part = drawn_part_of(scene.cloud, scene.blocks);
   for (ObjectItem& object : document->objects)
     if (std::ranges::find(object.leaves_also, came) != object.leaves_also.end())
       object = left_what_came(

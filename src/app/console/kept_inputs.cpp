@@ -11,14 +11,14 @@
 
 namespace splatcut {
 
-namespace {
-
 namespace fs = std::filesystem;
 
 bool same_file(const fs::path& a, const fs::path& b) {
   std::error_code missing;
   return fs::equivalent(a, b, missing) && !missing;
 }
+
+namespace {
 
 // By its place behind all links, or by another name of it in the folder.
 bool holds(const fs::path& folder, const fs::path& input) {

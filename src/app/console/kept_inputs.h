@@ -7,6 +7,9 @@
 
 namespace splatcut {
 
+// Whether two names are those of one file that is there, by device and inode.
+bool same_file(const std::filesystem::path& a, const std::filesystem::path& b);
+
 // Throws Error where `output`, a file or a folder, is one of the inputs, a folder that holds one, or a file
 // in an input that is a folder, and where an input has the name under which AtomicFile writes the output
 // first. Files are told apart by device and inode, so that links do not hide them.

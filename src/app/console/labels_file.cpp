@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "core/atomic_file.h"
@@ -56,6 +57,19 @@ void write_object_names(const std::filesystem::path& path, std::span<const std::
   for (const std::string& name : names)
     objects.push_back({{"object_id", objects.size() + 1}, {"name", name.empty() ? "object" : name}});
   write_text_file(path, json_text({{"objects", objects}}, 2) + "\n");
+}
+
+void refuse_other_than_names(const std::filesystem::path& path) {
+  std::error_code failure;
+  if (!std::filesystem::exists(path, failure)) return;
+  const auto is_name = [](const nlohmann::json& o) { return o.contains("object_id") && o.contains("name"); };
+  try {
+    const nlohmann::json there = json_of_file(path);
+    if (there.size() == 1 && std::ranges::all_of(there.at("objects"), is_name)) return;
+  } catch (const std::exception&) {  // it is no JSON, or of another form
+  }
+  throw Error(path.string(), "would get the names of the objects, but holds something else",
+              "It would be lost: choose another name");
 }
 
 }  // namespace splatcut

@@ -25,5 +25,8 @@ std::vector<std::uint8_t> load_labels(const std::filesystem::path& path, const S
 
 // What the numbers of labels and of object_id stand for, as JSON: the objects' names, the first has number 1.
 void write_object_names(const std::filesystem::path& path, std::span<const std::string> names);
+// Throws Error where the file is there and holds anything else: nobody who writes over a scene means, say,
+// the cameras beside it.
+void refuse_other_than_names(const std::filesystem::path& path);
 
 }  // namespace splatcut

@@ -32,7 +32,10 @@ std::size_t first_row(const std::vector<SceneSource>& files, std::size_t file) {
 }  // namespace
 
 CarriedDocument::CarriedDocument(const OpenedScene& before, const OpenedScene& after)
-    : before_of_(after.cloud->size(), kNew), file_of_(after.cloud->size()) {
+    : gaussians_before_(before.cloud->size()),
+      drawn_before_(drawn_part_of(before.cloud, before.blocks)),
+      before_of_(after.cloud->size(), kNew),
+      file_of_(after.cloud->size()) {
   const std::vector<std::int32_t> file_of = file_of_rows(after.files), was = gaussian_of_rows(before);
   std::vector<std::int64_t> shift(after.files.size(), 0);  // from a row now to the row it was
   std::vector<bool> known(after.files.size(), false);
@@ -78,18 +81,35 @@ Flags CarriedDocument::seen(const Flags& flags, std::int32_t only_file) {
   return known = make_flags(std::move(out));
 }
 
-std::int32_t CarriedDocument::followed_file(const ObjectItem& object) const {
-  if (!object.cut) return kAnyFile;
+// As flags of the old scene.
+const Flags& CarriedDocument::hit_by_first_stroke(const ObjectItem& object) {
+  Flags& known = hit_[key_of_first_stroke(cut_request({}, object))];
+  if (known) return known;
+  std::vector<std::uint8_t> hit(gaussians_before_, 0);
+  const auto view = std::ranges::find_if(object.views, marks_object);
+  if (view != object.views.end()) {
+    const Stroke& first = *std::ranges::find(view->strokes, SeedLabel::kObject, &Stroke::label);
+    for (const std::int32_t g : hits_of({view->camera, first, view->seen}, drawn_before_))
+      hit[static_cast<std::size_t>(g)] = 1;
+  }
+  return known = make_flags(std::move(hit));
+}
+
+std::int32_t CarriedDocument::followed_file(const ObjectItem& object) {
+  if (std::ranges::none_of(files_, &File::moved) || (!object.cut && object.views.empty())) return kAnyFile;
+  const Flags& has = object.cut ? object.cut : hit_by_first_stroke(object);
+  const auto [known, fresh] = followed_.try_emplace(has, kAnyFile);
+  if (!fresh) return known->second;
   std::vector<std::size_t> count(files_.size(), 0);
   std::size_t all = 0;
   for (std::size_t g = 0; g < before_of_.size(); ++g)
-    if (before_of_[g] != kNew && (*object.cut)[static_cast<std::size_t>(before_of_[g])]) {
+    if (before_of_[g] != kNew && (*has)[static_cast<std::size_t>(before_of_[g])]) {
       ++count[static_cast<std::size_t>(file_of_[g])];
       ++all;
     }
   for (std::size_t i = 0; i < files_.size(); ++i)
-    if (files_[i].moved && 2 * count[i] > all) return static_cast<std::int32_t>(i);
-  return kAnyFile;
+    if (files_[i].moved && 2 * count[i] > all) known->second = static_cast<std::int32_t>(i);
+  return known->second;
 }
 
 void CarriedDocument::carry_views(ObjectItem* object) {

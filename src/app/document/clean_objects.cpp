@@ -63,7 +63,8 @@ Flags CleanObjects::first(const Flags& labels) const {
     if (found == labels && *other == *labels) found = other;
   };
   std::erase_if(asked_, [](const auto& asked) { return asked.first.expired() || asked.second.expired(); });
-  for (const auto& asked : asked_) compare(asked.second.lock());
+  for (const auto& asked : asked_)
+    if (const Flags own = asked.second.lock()) compare(own);  // other threads let go of labels at any time
   for (const Kept& kept : kept_) compare(kept.labels);
   for (const KeptWithout& kept : kept_without_) compare(kept.leaving.labels);
   asked_.emplace_back(labels, found);

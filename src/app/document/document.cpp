@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "core/error.h"
+#include "segment/finish/shown_part.h"
 
 namespace splatcut {
 
@@ -48,12 +49,22 @@ bool same_but_strokes(const ObjectItem& a, const ObjectItem& b) {
          same_flags(a.of_others, b.of_others);
 }
 
-// Whether more than half of what a stroke hits has the flags. Null: no flags.
-bool is_made_on(const Flags& flags, std::span<const std::int32_t> hits) {
-  if (!flags) return false;
+// Whether that holds for more than half of what a stroke hits.
+template <class Holds>
+bool holds_for_most(std::span<const std::int32_t> hits, Holds holds) {
   const auto on =
-      std::ranges::count_if(hits, [&](std::int32_t g) { return (*flags)[static_cast<std::size_t>(g)] != 0; });
+      std::ranges::count_if(hits, [&](std::int32_t g) { return holds(static_cast<std::size_t>(g)); });
   return 2 * on > std::ssize(hits);
+}
+
+// The same of flags. Null: no flags.
+bool is_made_on(const Flags& flags, std::span<const std::int32_t> hits) {
+  return flags && holds_for_most(hits, [&](std::size_t g) { return (*flags)[g] != 0; });
+}
+
+// Whether the one can leave the other anything: neither is a part of the other.
+bool are_apart(const Document& document, const ObjectItem& a, const ObjectItem& b) {
+  return a.id != b.id && !is_part_of(document, a, b.id) && !is_part_of(document, b, a.id);
 }
 
 // What those of the other objects have that are asked for, but for parts of this one and wholes of it.
@@ -61,9 +72,7 @@ template <class IsAsked>
 Flags had_by(const Document& document, const ObjectItem& object, std::size_t gaussians, IsAsked is_asked) {
   std::vector<std::uint8_t> had(gaussians, 0);
   for (const ObjectItem& other : document.objects) {
-    if (other.id == object.id || !is_asked(other) || is_part_of(document, object, other.id) ||
-        is_part_of(document, other, object.id))
-      continue;
+    if (!is_asked(other) || !are_apart(document, object, other)) continue;
     const std::vector<std::uint8_t> labels = labels_of(document, other, gaussians);
     for (std::size_t g = 0; g < gaussians; ++g) had[g] |= labels[g];
   }
@@ -149,6 +158,15 @@ std::vector<std::uint8_t> labels_of(const Document& document, const ObjectItem& 
   return labels;
 }
 
+bool has(const Document& document, const ObjectItem& object, std::size_t gaussian) {
+  const auto in = [gaussian](const Flags& flags) -> std::uint8_t { return flags ? (*flags)[gaussian] : 0; };
+  bool label = in(object.cut) && !in(object.of_others);
+  if (const std::uint8_t mark = in(object.hand); mark == kHandObject || mark == kHandRest)
+    label = mark == kHandObject;
+  const ObjectItem* whole = document.find(object.within);
+  return label && !in(document.deleted) && (!whole || has(document, *whole, gaussian));
+}
+
 bool is_part_of(const Document& document, const ObjectItem& part, ObjectId whole) {
   for (const ObjectItem* inner = &part; inner; inner = document.find(inner->within))
     if (inner->within == whole) return true;
@@ -178,12 +196,32 @@ void leave_to_locked(const Document& document, ObjectItem* object, std::size_t g
   if (!object->of_others || left != *object->of_others) object->of_others = make_flags(std::move(left));
 }
 
+void leave_to_locked_one(Document* document, const ObjectItem& locked, std::size_t gaussians) {
+  const std::vector<std::uint32_t> rows = labelled_rows(labels_of(*document, locked, gaussians));
+  for (ObjectItem& other : document->objects) {
+    if (!are_apart(*document, locked, other)) continue;
+    std::vector<std::uint8_t> left;
+    for (const std::uint32_t g : rows) {
+      if ((other.of_others && (*other.of_others)[g]) || has(*document, other, g)) continue;
+      if (left.empty()) left = other.of_others ? *other.of_others : std::vector<std::uint8_t>(gaussians, 0);
+      left[g] = 1;
+    }
+    if (!left.empty()) other.of_others = make_flags(std::move(left));
+  }
+}
+
 const ObjectItem* locked_under(const Document& document, const ObjectItem& object,
-                               std::span<const std::int32_t> hits, std::size_t gaussians) {
-  const Flags kept = kept_by_locked(document, object, gaussians);
-  if (!is_made_on(kept, hits)) return nullptr;
+                               std::span<const std::int32_t> hits) {
+  const auto keeps = [&](const ObjectItem& other, std::size_t g) {
+    return other.locked && are_apart(document, object, other) && has(document, other, g);
+  };
+  const auto is_kept = [&](std::size_t g) {
+    return !has(document, object, g) &&
+           std::ranges::any_of(document.objects, [&](const ObjectItem& other) { return keeps(other, g); });
+  };
+  if (!holds_for_most(hits, is_kept)) return nullptr;
   const auto has_most = [&](const ObjectItem& other) {
-    return other.locked && is_made_on(had_by_others(document, object, gaussians, other.id), hits);
+    return holds_for_most(hits, [&](std::size_t g) { return keeps(other, g); });
   };
   const auto found = std::ranges::find_if(document.objects, has_most);
   return found != document.objects.end() ? &*found : nullptr;
@@ -226,21 +264,18 @@ bool reaches_beyond(const ObjectItem& object, std::span<const std::int32_t> hits
 }
 
 bool means_what_is_left(const Document& document, const ObjectItem& object,
-                        std::span<const std::int32_t> hits, std::size_t gaussians) {
+                        std::span<const std::int32_t> hits) {
   if (!is_made_on(object.of_others, hits)) return false;
-  if (hits.size() == 1) return true;                      // whoever has it
-  std::vector<std::uint8_t> nobodys = *object.of_others;  // what no other has any more
-  for (const ObjectItem& other : document.objects) {
-    const Flags had = other.id == object.id ? nullptr : had_by_others(document, object, gaussians, other.id);
-    if (!had) continue;
-    std::vector<std::uint8_t> left = *object.of_others;
-    for (std::size_t g = 0; g < gaussians; ++g) {
-      left[g] = left[g] && (*had)[g];
-      nobodys[g] = nobodys[g] && !(*had)[g];
-    }
-    if (is_made_on(make_flags(std::move(left)), hits)) return true;
-  }
-  return is_made_on(make_flags(std::move(nobodys)), hits);
+  if (hits.size() == 1) return true;  // whoever has it
+  const auto is_left = [&](const ObjectItem& other, std::size_t g) {
+    return (*object.of_others)[g] && are_apart(document, object, other) && has(document, other, g);
+  };
+  for (const ObjectItem& other : document.objects)
+    if (holds_for_most(hits, [&](std::size_t g) { return is_left(other, g); })) return true;
+  return holds_for_most(hits, [&](std::size_t g) {  // what no other has any more
+    return (*object.of_others)[g] &&
+           std::ranges::none_of(document.objects, [&](const ObjectItem& o) { return is_left(o, g); });
+  });
 }
 
 ObjectItem left_what_came(const Document& document, const ObjectItem& object, std::span<const ObjectId> came,

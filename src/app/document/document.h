@@ -94,6 +94,9 @@ bool is_stale(const ObjectItem& object, const std::string& key);
 std::vector<std::uint8_t> labels_of(const Document& document, const ObjectItem& object,
                                     std::size_t gaussians);
 
+// One of these labels.
+bool has(const Document& document, const ObjectItem& object, std::size_t gaussian);
+
 // True if an object is a part of `whole`, or a part of such a part.
 bool is_part_of(const Document& document, const ObjectItem& part, ObjectId whole);
 
@@ -106,9 +109,12 @@ Flags had_by_others(const Document& document, const ObjectItem& object, std::siz
 Flags kept_by_locked(const Document& document, const ObjectItem& object, std::size_t gaussians);
 // Leaves that to them, too.
 void leave_to_locked(const Document& document, ObjectItem* object, std::size_t gaussians);
+// Leaves the same of one that was locked now to each of the others. It costs rows x objects, as the window
+// waits for it.
+void leave_to_locked_one(Document* document, const ObjectItem& locked, std::size_t gaussians);
 // The locked object that keeps more than half of what a stroke hits from this one; null: none does.
 const ObjectItem* locked_under(const Document& document, const ObjectItem& object,
-                               std::span<const std::int32_t> hits, std::size_t gaussians);
+                               std::span<const std::int32_t> hits);
 
 // Whether the object leaves to others all that it is to leave, also what a hand took since, and not to
 // locked ones alone.
@@ -130,7 +136,7 @@ ObjectItem left_what_came(const Document& document, const ObjectItem& object, st
 // Whether a stroke that hits these Gaussians means what the object leaves to one of the others: that has more
 // than half of them.
 bool means_what_is_left(const Document& document, const ObjectItem& object,
-                        std::span<const std::int32_t> hits, std::size_t gaussians);
+                        std::span<const std::int32_t> hits);
 
 // Whether a stroke is made on what the object is not cut among: more than half of what it hits is not.
 bool reaches_beyond(const ObjectItem& object, std::span<const std::int32_t> hits);

@@ -16,8 +16,8 @@ namespace splatcut {
 
 namespace {
 
-// The same for strokes. The first settles for the object which way is up: views around it depend on it, and
-// turning the scene later is no reason to compute it again.
+// Returns the object that a stroke goes to. Its first stroke settles for it which way is up: views around it
+// depend on that, and turning the scene later is no reason to compute it again.
 ObjectItem& stroked(Document* document) {
   ObjectItem& object = target(document);
   if (object.views.empty()) {
@@ -27,7 +27,7 @@ ObjectItem& stroked(Document* document) {
   return object;
 }
 
-// What its meanings are of.
+// Returns the word for what began the object, whose meanings are offered.
 const char* first_stroke_word(const ObjectItem& object) {
   for (const StrokedView& view : object.views)
     if (!view.strokes.empty()) return view.strokes.front().is_box() ? "box" : "click";
@@ -40,7 +40,7 @@ const char* first_stroke_word(const ObjectItem& object) {
 void settle_with_others(Document* document, ObjectItem* object, std::span<const std::int32_t> hits,
                         bool first, const EditContext& context) {
   const std::size_t n = context.cloud.size();
-  if (const ObjectItem* kept = locked_under(*document, *object, hits, n))
+  if (const ObjectItem* kept = locked_under(*document, *object, hits))
     throw Error(kept->name, "is locked, and no other object takes what it has",
                 "Unlock it in the objects panel");
   if (first) {
@@ -51,7 +51,7 @@ void settle_with_others(Document* document, ObjectItem* object, std::span<const 
                 base_colour(context.cloud, static_cast<std::size_t>(hits[hits.size() / 2])));
     leave_to_others(*document, object, n);
   }
-  if (means_what_is_left(*document, *object, hits, n)) share_again(*document, object, n);
+  if (means_what_is_left(*document, *object, hits)) share_again(*document, object, n);
   leave_to_locked(*document, object, n);
   if (reaches_beyond(*object, hits)) object->among = nullptr;
 }
@@ -155,8 +155,8 @@ Flags changed_by(const Document& document, const AddStroke& stroke, std::vector<
   if (stroke.stroke.label == SeedLabel::kObject) {
     if (object.of_others != left) set_of_others(&object, left);
     const std::size_t n = context.cloud.size();
-    if (locked_under(document, object, stroke.hits, n)) after = before;
-    if (means_what_is_left(document, object, stroke.hits, n)) share_again(document, &object, n);
+    if (locked_under(document, object, stroke.hits)) after = before;
+    if (means_what_is_left(document, object, stroke.hits)) share_again(document, &object, n);
   }
   std::vector<std::uint8_t> change = with_cut(document, std::move(before));
   const std::vector<std::uint8_t> then = with_cut(std::move(stroked_document), std::move(after));
@@ -213,9 +213,11 @@ std::string edit(Document* document, const RemoveStroke& command, const EditCont
                      any_rest ? ", and those on the rest with it" : "", object.name);
 }
 
-// Leaves to others what the object left before it shared with them. What hands took since stays.
-void leave_as_before(const ObjectItem& before, ObjectItem* object) {
-  object->of_others = before.of_others;
+namespace {
+
+// The object leaves these to others, as in `before` some of them. What hands took since stays.
+void leave(Flags others, const ObjectItem& before, ObjectItem* object) {
+  object->of_others = std::move(others);
   if (!object->hand || !before.hand) return;
   std::vector<std::uint8_t> hand = *object->hand;
   for (std::size_t g = 0; g < hand.size(); ++g)
@@ -223,7 +225,31 @@ void leave_as_before(const ObjectItem& before, ObjectItem* object) {
   object->hand = make_flags(std::move(hand));
 }
 
-void take_back_sharing(const History& history, const RemoveStroke& gone, ObjectItem* object) {
+// What the object left to others in `before`, and with a stroke in `made` no more: it leaves that again,
+// unless it leaves some of that meanwhile, and not because it is locked.
+void leave_again(const Document& document, const ObjectItem& before, const ObjectItem& made,
+                 ObjectItem* object, std::size_t gaussians) {
+  if (!before.of_others || !object->leaves_also.empty()) return;
+  const Flags kept = kept_by_locked(document, *object, gaussians);
+  const auto has = [](const Flags& flags, std::size_t g) { return flags && (*flags)[g]; };
+  std::vector<std::uint8_t> left = *before.of_others;
+  bool ended = false;
+  for (std::size_t g = 0; g < gaussians; ++g) {
+    const bool ended_here = left[g] && !has(made.of_others, g), now = has(object->of_others, g);
+    if (ended_here && now && !has(kept, g)) return;
+    ended |= ended_here;
+    left[g] |= now;
+  }
+  if (!ended) return;
+  leave(make_flags(std::move(left)), before, object);
+  object->leaves_also = before.leaves_also;
+}
+
+}  // namespace
+
+void take_back_sharing(const History& history, const RemoveStroke& gone, Document* document,
+                       std::size_t gaussians) {
+  ObjectItem* object = document->find(document->active);
   const ObjectItem* now = history.now().find(object->id);
   const Camera& camera = now->views.at(gone.view).camera;
   const auto holds = [&](const ObjectItem& item) {
@@ -241,7 +267,7 @@ void take_back_sharing(const History& history, const RemoveStroke& gone, ObjectI
       made = before;
       continue;
     }
-    if (before->of_others && !made->of_others && !object->of_others) leave_as_before(*before, object);
+    leave_again(*document, *before, *made, object, gaussians);
     if (before->among && !made->among && !object->among) object->among = before->among;
     return;
   }

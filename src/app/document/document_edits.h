@@ -45,10 +45,12 @@ bool asks_what_is_hit(const Document& document, SeedLabel label, const EditConte
 // What a stroke that marks the active object, or begins one, leaves to others unless it means that.
 Flags left_by_stroke(const Document& document, const EditContext& context);
 
-// A click can end what its object leaves to others, or the limits that it is cut among
-// (ObjectItem::of_others, among). Where such a click was taken away, gives the object those back that the
-// history knows, unless they were changed again since. object: in a copy of now(), without the click.
-void take_back_sharing(const History& history, const RemoveStroke& gone, ObjectItem* object);
+// A click can end what its object leaves to others, but for what locked ones keep, or the limits that it is
+// cut among (ObjectItem::of_others, leaves_also, among). Where such a click was taken away, gives the active
+// object those back that the history knows, unless they were changed again since. document: a copy of now(),
+// without the click.
+void take_back_sharing(const History& history, const RemoveStroke& gone, Document* document,
+                       std::size_t gaussians);
 
 // Gaussians whose labels a stroke changes, where the cut alone gives the active object `before` without it
 // and `after` it with it. left: left_by_stroke().

@@ -97,6 +97,7 @@ void save_in_one(const std::vector<std::uint8_t>& owner, const std::optional<Sim
   }
   const std::filesystem::path names = std::filesystem::path(request.path).replace_extension(".json");
   refuse_written_inputs(names, what.scene.files);
+  refuse_other_than_names(names);
   check_output_file(names, request.overwrite, "Choose another name, or to write over it");
   what.object_ids = owner;
   save(request.path, owner, nullptr, {}, to, what, report);

@@ -4,8 +4,11 @@
 #include <atomic>
 #include <cassert>
 #include <tuple>
+#include <unordered_map>
 #include <unordered_set>
 #include <utility>
+
+#include "core/byte_hash.h"
 
 namespace splatcut {
 
@@ -21,22 +24,43 @@ std::uint64_t next_serial() {
   return ++last;
 }
 
+template <class DocumentOrConst>
+void visit_arrays(DocumentOrConst& document, const auto& visit) {
+  visit(document.deleted);
+  for (auto& object : document.objects) {
+    for (auto* flags : {&object.cut, &object.hand, &object.of_others, &object.among}) visit(*flags);
+    for (auto& view : object.views) visit(view.seen);
+  }
+}
+
+// Makes one of equal arrays, as those are that a step leaves: they are compared by their places.
+class SharedArrays {
+ public:
+  void share(Flags* flags) {
+    if (!*flags) return;
+    Flags& known = by_place_[*flags];
+    if (!known) known = first(*flags);
+    *flags = known;
+  }
+
+ private:
+  Flags first(const Flags& flags) {
+    std::vector<Flags>& alike = by_hash_[hash_bytes(std::as_bytes(std::span(*flags)))];
+    for (const Flags& other : alike)
+      if (*other == *flags) return other;
+    return alike.emplace_back(flags);
+  }
+  std::unordered_map<Flags, Flags> by_place_;
+  std::unordered_map<std::uint64_t, std::vector<Flags>> by_hash_;
+};
+
 std::size_t distinct_bytes(const std::vector<History::Entry>& entries) {
   std::unordered_set<const void*> seen;
   std::size_t bytes = 0;
   const auto add = [&](const Flags& flags) {
     if (flags && seen.insert(flags.get()).second) bytes += flags->size();
   };
-  for (const History::Entry& entry : entries) {
-    add(entry.document.deleted);
-    for (const ObjectItem& object : entry.document.objects) {
-      add(object.cut);
-      add(object.hand);
-      add(object.of_others);
-      add(object.among);
-      for (const StrokedView& view : object.views) add(view.seen);
-    }
-  }
+  for (const History::Entry& entry : entries) visit_arrays(entry.document, add);
   return bytes;
 }
 
@@ -98,10 +122,13 @@ void History::reset(const SavedSteps& saved) {
   assert(saved.cursor < saved.steps.size());
   entries_.clear();
   const Entry none;
+  SharedArrays arrays;  // the state at the cursor was read from elsewhere in the file
   for (const SavedSteps::Step& step : saved.steps) {
-    auto keys = keys_of(step.document, entries_.empty() ? none : entries_.back());
+    Document document = step.document;
+    visit_arrays(document, [&](Flags& flags) { arrays.share(&flags); });
+    auto keys = keys_of(document, entries_.empty() ? none : entries_.back());
     const bool other_files = step.other_files && !entries_.empty();  // the first one leads back to nothing
-    entries_.push_back({step.title, {}, step.document, std::move(keys), other_files ? kNotKept : 0});
+    entries_.push_back({step.title, {}, std::move(document), std::move(keys), other_files ? kNotKept : 0});
   }
   cursor_ = saved.cursor;
   left_.reset();

@@ -73,11 +73,12 @@ std::string edit(Document* document, const TintObject& command, const EditContex
 std::string edit(Document* document, const LockObject& command, const EditContext& context) {
   ObjectItem& object = required(document, command.object);
   object.locked = command.locked;
+  if (command.locked) leave_to_locked_one(document, object, context.cloud.size());
+  const bool comes = command.locked && is_stale(*document, object);
   for (ObjectItem& other : document->objects) {
-    if (!command.locked || other.id == object.id) continue;
-    leave_to_locked(*document, &other, context.cloud.size());
+    if (!comes || other.id == object.id) continue;
     const bool known = std::ranges::find(other.leaves_also, object.id) != other.leaves_also.end();
-    if (is_stale(*document, object) && !known) other.leaves_also.push_back(object.id);
+    if (!known) other.leaves_also.push_back(object.id);
   }
   return object.name + (command.locked ? " locked" : " unlocked");
 }

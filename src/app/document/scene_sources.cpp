@@ -17,9 +17,24 @@ glm::quat rotation_of(const ScenePlace& place) {
          glm::angleAxis(angles.x, glm::vec3(1, 0, 0));
 }
 
+// The angles of ScenePlace, degrees, that make this rotation. Where y is 90 or -90 only the sum (or the
+// difference) of the two others counts: z is 0 then. x is measured after z and y are taken back, so that all
+// three together are the rotation also near there.
+glm::vec3 angles_deg(const glm::quat& rotation) {
+  constexpr double kUpended = 2e-6;  // cosine of y; what the rounding of a product of rotations leaves of 0
+  const glm::dmat3 m = glm::mat3_cast(glm::normalize(glm::dquat(rotation)));  // m[column][row]
+  const double z = std::hypot(m[0][0], m[0][1]) < kUpended ? 0 : std::atan2(m[0][1], m[0][0]);
+  const double c = std::cos(z), s = std::sin(z);
+  const double y = std::atan2(-m[0][2], c * m[0][0] + s * m[0][1]);
+  const double x = std::atan2(s * m[2][0] - c * m[2][1], c * m[1][1] - s * m[1][0]);
+  return glm::degrees(glm::dvec3(x, y, z));
+}
+
 bool finite(const glm::vec3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
+
+constexpr float kLeastScale = 1e-3f, kMostScale = 1e3f;  // that handles and Fit reach; numbers go further
 
 Box seen_box(const SceneSource& file) {
   return glm::length(file.solid.extent()) > 0 ? file.solid : file.bounds;
@@ -76,10 +91,10 @@ void stand(std::vector<SceneSource>* files) {
 }
 
 void check(const ScenePlace& place, const std::filesystem::path& file) {
-  constexpr float kLeastScale = 1e-6f, kMostScale = 1e6f, kFarthest = 1e9f;
-  if (!(place.scale >= kLeastScale && place.scale <= kMostScale))
+  constexpr float kLeast = 1e-6f, kMost = 1e6f, kFarthest = 1e9f;
+  if (!(place.scale >= kLeast && place.scale <= kMost))
     throw Error(file.filename().string(), fmt::format("it cannot be placed {:g} times as large: {:g} to {:g}",
-                                                      place.scale, kLeastScale, kMostScale));
+                                                      place.scale, kLeast, kMost));
   if (!finite(place.turn_deg)) throw Error(file.filename().string(), "the turn must be ordinary numbers");
   if (!finite(place.move) || !(glm::length(place.move) < kFarthest))
     throw Error(file.filename().string(), fmt::format("it cannot be moved by more than {:g}", kFarthest));
@@ -97,17 +112,16 @@ Similarity similarity_between(const SceneSource& before, const SceneSource& afte
 
 ScenePlace changed(const SceneSource& file, ScenePlace place, const PlacingChange& change,
                    const glm::vec3& up_world) {
-  constexpr float kLeastScale = 1e-3f, kMostScale = 1e3f;
   place.move += change.move_world;
   if (change.angle_rad != 0)  // angles that say the same would be others
-    place.turn_deg = glm::degrees(glm::eulerAngles(change.turn * rotation_of(place)));
+    place.turn_deg = angles_deg(change.turn * rotation_of(place));
   if (change.scale == 1) return place;
   return scaled_on_foot(file, place, glm::clamp(place.scale * change.scale, kLeastScale, kMostScale),
                         up_world);
 }
 
 ScenePlace stood_upright(const SceneSource& file, ScenePlace place, const glm::vec3& up_world) {
-  place.turn_deg = glm::degrees(glm::eulerAngles(turn_between(file.views->up_world, up_world)));
+  place.turn_deg = angles_deg(turn_between(file.views->up_world, up_world));
   return place;
 }
 
@@ -145,7 +159,7 @@ float share_of_picture(const SceneSource& file, const Camera& camera, const glm:
 }
 
 ScenePlace fitted(const SceneSource& file, const Camera& camera, const glm::vec3& up_world) {
-  constexpr float kFitted = 0.5f, kLeastScale = 1e-3f, kMostScale = 1e3f;
+  constexpr float kFitted = 0.5f;
   const float scale = file.place.scale * kFitted / share_of_picture(file, camera, up_world);
   return scaled_on_foot(file, file.place, std::clamp(scale, kLeastScale, kMostScale), up_world);
 }

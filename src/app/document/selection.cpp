@@ -74,7 +74,7 @@ float value_at(const Image<float>& values, const Mask& of, int x, int y) {
   return values.at(x * values.width() / of.width(), y * values.height() / of.height());
 }
 
-// The median distance of a Gaussian to its graph neighbours, over all of them.
+// Returns the median length of the graph's arcs that begin at selected Gaussians.
 float usual_spacing(const GaussianCloud& cloud, const FlowGraph& graph, const Selection& selection) {
   std::vector<float> lengths;
   for (std::uint32_t g = 0; g < graph.nodes(); ++g) {

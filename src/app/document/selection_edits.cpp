@@ -20,8 +20,10 @@ Selection inverted(const Selection& selection) {
   return out;
 }
 
-// Takes out of what an edit makes of an object what locked ones keep, and says so; empty: they keep nothing.
+// Takes out of what an edit makes of an object what is deleted and what locked ones keep, and says the
+// latter; empty: they keep nothing.
 std::string leave_locked(const Document& document, const ObjectItem& object, Selection* after) {
+  if (document.deleted) *after = combined(*after, *document.deleted, SetOperation::kRemove);
   const Flags kept = kept_by_locked(document, object, after->size());
   std::size_t left = 0;
   for (std::size_t g = 0; kept && g < after->size(); ++g)
@@ -37,12 +39,13 @@ std::string edit_selection(Document* document, const Selection& region, SetOpera
   const std::vector<std::uint8_t> before = labels(*document, object, context);
   Selection after = combined(before, region, operation);
   const std::string kept = leave_locked(*document, object, &after);
-  std::size_t changed = 0;
-  for (std::size_t g = 0; g < after.size(); ++g) changed += (before[g] != 0) != (after[g] != 0);
   Selection taken_out = region;
   if (operation == SetOperation::kAdd) taken_out.clear();
   if (operation == SetOperation::kIntersect) taken_out = inverted(region);
   set_labels(document, &object, after, taken_out);
+  const std::vector<std::uint8_t> now = labels(*document, object, context);  // a part stays in its whole
+  std::size_t changed = 0;
+  for (std::size_t g = 0; g < now.size(); ++g) changed += (before[g] != 0) != (now[g] != 0);
   const char* what = operation == SetOperation::kAdd      ? "added"
                      : operation == SetOperation::kRemove ? "removed"
                                                           : "changed";
@@ -63,7 +66,7 @@ std::string edit_by_shape(Document* document, const Selection& region, SetOperat
         !(document->deleted && (*document->deleted)[g]))
       added.push_back(static_cast<std::int32_t>(g));
   if (first) leave_to_others(*document, &object, n);
-  if (means_what_is_left(*document, object, added, n)) {
+  if (means_what_is_left(*document, object, added)) {
     if (first) share_again(*document, &object, n);
     return edit_selection(document, region, operation, context);
   }

@@ -6,6 +6,19 @@
 
 namespace splatcut {
 
+DrawnPart drawn_part_of(std::shared_ptr<const GaussianCloud> cloud,
+                        std::shared_ptr<const CloudBlocks> blocks) {
+  return [cloud, blocks](const Camera& camera, const PixelRect& part, const Flags& visible) {
+    RasterOptions options;
+    options.colour = false;
+    options.depth = true;
+    options.roi = part;
+    options.blocks = blocks.get();
+    if (visible) options.shown = *visible;
+    return rasterize(*cloud, camera, options);
+  };
+}
+
 std::vector<std::int32_t> hits_of(const CameraStroke& s, const DrawnPart& drawn) {
   if (s.stroke.points_px.empty()) return {};
   constexpr int kWidthPx = 160;

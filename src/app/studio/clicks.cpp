@@ -90,7 +90,7 @@ void Clicks::perform(const RemoveStroke& c) {
   ws_.require_scene();
   Document after = ws_.document();
   const std::string message = edit(&after, c, ws_.context());
-  take_back_sharing(ws_.history, c, after.find(after.active));
+  take_back_sharing(ws_.history, c, &after, ws_.gaussians());
   edits_.push(c.title(), std::move(after), {}, message);
 }
 

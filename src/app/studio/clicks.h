@@ -50,9 +50,9 @@ class Clicks {
   float sizes_opacity() const;  // opacity of sizes(), from 1 to 0
   // The outline under the pointer is looked for, and longer than one takes for at once.
   bool looking() const;
-  bool sizes_fade() const { return sizes() && !on_last_dot(); }  // true: it changes with time
+  bool sizes_fade() const { return sizes() && !on_last_dot(); }              // true: it changes with time
+  bool wheel_takes_sizes() const { return on_last_dot() && known_sizes(); }  // true: it does not zoom
   // Mark under the pointer, whose click one of the other label would take away; null: none.
-  bool wheel_takes_sizes() const { return on_last_dot() && known_sizes(); }
   const StrokeMark* pointed_mark() const;
   // True if the active object's clicks found nothing, mostly because they were made from too far away.
   bool found_nothing() const;

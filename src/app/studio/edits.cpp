@@ -17,25 +17,61 @@ std::span<const std::uint8_t> all_of(const Flags& flags) {
 
 }  // namespace
 
-void Edits::in_turn(std::function<void()> command, OnCancel on_cancel) {
+void Edits::in_turn(std::function<void()> command, OnCancel on_cancel, std::string writes) {
   if (under_way_)
-    waiting_.push_back({std::move(command), on_cancel});
+    waiting_.push_back({std::move(command), on_cancel, std::move(writes)});
   else
     command();
 }
 
-void Edits::after_cuts(const std::string& title, std::function<void()> command) {
+void Edits::at_last(std::function<void()> command) {
+  const auto is_dropped = [](const Waiting& w) { return w.on_cancel == OnCancel::kDropped; };
+  if (!under_way_ && std::ranges::none_of(waiting_, is_dropped)) return command();
+  waiting_.push_back({[this, command = std::move(command)] { at_last(command); }, OnCancel::kStays, {}});
+}
+
+void Edits::after_cuts(const std::string& title, std::function<void()> command, bool writes_file) {
   const ObjectId object = cuts_.next();
   under_way_ = true;
   for_cuts_ = std::move(command);
+  for_cuts_title_ = title;
+  for_cuts_writes_ = writes_file;
+  cuts_failed_ = cuts_.failed();
   ws_.say(Message::Kind::kInfo,
           fmt::format("{}: as soon as {} is computed", title, ws_.document().find(object)->name));
 }
 
+void Edits::once_cut(SetOperation operation, const std::string& title, std::function<void()> command) {
+  if (operation == SetOperation::kAdd || cuts_.next() == 0) return command();
+  after_cuts(title, [this, command = std::move(command)] {
+    try {
+      command();
+    } catch (const Error& error) {
+      ws_.say(Message::Kind::kRefused, error.what());
+    }
+  });
+}
+
+std::vector<std::string> Edits::files_waiting() const {
+  std::vector<std::string> files;
+  if (for_cuts_ && for_cuts_writes_) files.push_back(for_cuts_title_);
+  for (const Waiting& waiting : waiting_)
+    if (!waiting.writes.empty()) files.push_back(waiting.writes);
+  return files;
+}
+
 void Edits::update() {
-  if (!for_cuts_ || cuts_.next() != 0) return;
+  for (const std::string& lost : std::exchange(lost_, {}))
+    ws_.say_also(Message::Kind::kError, lost + ": not done, as another scene was opened before");
+  if (!for_cuts_) return;
+  if (cuts_.failed() != cuts_failed_) {
+    ws_.say_also(Message::Kind::kRefused, for_cuts_title_ + ": not done, as what it waited for failed");
+    cancel();
+    return;
+  }
+  if (cuts_.next() != 0) return;
   const std::function<void()> command = std::exchange(for_cuts_, nullptr);
-  waiting_.push_front({command, OnCancel::kDropped});
+  waiting_.push_front({command, OnCancel::kDropped, {}});
   finish();
 }
 
@@ -50,6 +86,7 @@ bool Edits::cancel() {
 }
 
 void Edits::reset(bool same) {
+  if (!same) lost_ = files_waiting();
   std::erase_if(waiting_, [&](const Waiting& w) { return !same || w.on_cancel == OnCancel::kDropped; });
   cancel();
   volume_key_.clear();
@@ -80,6 +117,10 @@ void Edits::end(std::uint64_t number, const std::function<void()>& last) {
 void Edits::push_later(const Step& step) {
   begin();
   start(step);
+}
+
+void Edits::push_once_cut(SetOperation operation, const Step& step) {
+  once_cut(operation, step.title, [this, step] { push_later(step); });
 }
 
 void Edits::start(const Step& step) {
@@ -176,24 +217,26 @@ void Edits::perform(const SelectRegion& c) {
   const bool limited = through && ws_.view.depth_limit > 0;
   const float depth_limit = ws_.view.depth_limit * viewport_.camera().scene_size();
   const std::shared_ptr<const Frame> surface = viewport_.full_picture_of(c.camera, viewport_.pressed_pane());
-  push_later({fmt::format("{} ({}, {})", title_of(c.operation), c.shape, through ? "see-through" : "visible"),
-              {},
-              [c, limits, through, limited, on_surface, depth_limit, surface, by = taken_by(),
-               shown = viewport_.shown(viewport_.pressed_pane())](
-                  Document* document, const EditContext& context, const Job& job) {
-                const Flags visible = within_far_plane(context.cloud, c.camera, shown, limits.far_plane);
-                SeeThroughOptions options{.by = by};
-                std::shared_ptr<const Frame> frame = surface;
-                if ((limited || on_surface) && !frame)
-                  frame = raster_frame(context.cloud, c.camera, shown, limits, job);
-                if (limited && frame) options = {&frame->depth, depth_limit, by};
-                const Mask region =
-                    on_surface && frame ? surface_region(c.region, c.path_px, frame->depth) : c.region;
-                const Selection found =
-                    through ? select_through(context.cloud, c.camera, region, all_of(visible), options)
-                            : select_visible(context.cloud, c.camera, region, all_of(visible), by, job);
-                return job.cancelled() ? std::string() : edit_by_shape(document, found, c.operation, context);
-              }});
+  push_once_cut(
+      c.operation,
+      {fmt::format("{} ({}, {})", title_of(c.operation), c.shape, through ? "see-through" : "visible"),
+       {},
+       [c, limits, through, limited, on_surface, depth_limit, surface, by = taken_by(),
+        shown = viewport_.shown(viewport_.pressed_pane())](Document* document, const EditContext& context,
+                                                           const Job& job) {
+         const Flags visible = within_far_plane(context.cloud, c.camera, shown, limits.far_plane);
+         SeeThroughOptions options{.by = by};
+         std::shared_ptr<const Frame> frame = surface;
+         if ((limited || on_surface) && !frame)
+           frame = raster_frame(context.cloud, c.camera, shown, limits, job);
+         if (limited && frame) options = {&frame->depth, depth_limit, by};
+         const Mask region =
+             on_surface && frame ? surface_region(c.region, c.path_px, frame->depth) : c.region;
+         const Selection found =
+             through ? select_through(context.cloud, c.camera, region, all_of(visible), options)
+                     : select_visible(context.cloud, c.camera, region, all_of(visible), by, job);
+         return job.cancelled() ? std::string() : edit_by_shape(document, found, c.operation, context);
+       }});
 }
 
 // From the state before its first selection, seen as it was then; a cut in between has reached that, too.
@@ -204,7 +247,8 @@ void Edits::perform(const SelectVolume& c) {
     volume_key_ = fmt::format("volume {}", ++volumes_);
     volume_seen_ = viewport_.shown(viewport_.pressed_pane());
   }
-  push_later(
+  push_once_cut(
+      c.operation,
       {std::string(title_of(c.operation)) + (c.volume.round ? " (sphere)" : " (box)"), volume_key_,
        [c, seen = volume_seen_, by = taken_by()](Document* document, const EditContext& context, const Job&) {
          return edit_by_shape(document, select_volume(context.cloud, c.volume, all_of(seen), by), c.operation,
@@ -215,12 +259,13 @@ void Edits::perform(const SelectVolume& c) {
 
 void Edits::perform(const SelectColour& c) {
   ws_.require_scene();
-  push_later({std::string(title_of(c.operation)) + " (colour)",
-              {},
-              [c](Document* document, const EditContext& context, const Job&) {
-                return edit_selection(document, select_colour(context.cloud, c.colour, c.tolerance),
-                                      c.operation, context);
-              }});
+  push_once_cut(c.operation, {std::string(title_of(c.operation)) + " (colour)",
+                              {},
+                              [c](Document* document, const EditContext& context, const Job&) {
+                                return edit_selection(document,
+                                                      select_colour(context.cloud, c.colour, c.tolerance),
+                                                      c.operation, context);
+                              }});
 }
 
 void Edits::require_gaussian(std::int32_t gaussian) const {
@@ -237,33 +282,37 @@ void Edits::perform(const PickColour& c) {
 
 void Edits::perform(const SelectFlood& c) {
   require_gaussian(c.gaussian);
-  push_later({std::string(title_of(c.operation)) + " (flood)",
-              {},
-              [c, shown = viewport_.shown(viewport_.pressed_pane()), tolerance = ws_.view.colour_tolerance](
-                  Document* document, const EditContext& context, const Job&) {
-                const auto start = static_cast<std::size_t>(c.gaussian);
-                return edit_selection(document,
-                                      select_flood(context.cloud, context.graph->get(context.job), start,
-                                                   tolerance, all_of(shown)),
-                                      c.operation, context);
-              }});
+  push_once_cut(
+      c.operation,
+      {std::string(title_of(c.operation)) + " (flood)",
+       {},
+       [c, shown = viewport_.shown(viewport_.pressed_pane()), tolerance = ws_.view.colour_tolerance](
+           Document* document, const EditContext& context, const Job&) {
+         const auto start = static_cast<std::size_t>(c.gaussian);
+         return edit_selection(
+             document,
+             select_flood(context.cloud, context.graph->get(context.job), start, tolerance, all_of(shown)),
+             c.operation, context);
+       }});
 }
 
 void Edits::perform(const SelectScene& c) {
   ws_.require_scene();
   const SceneSource* file = ws_.scene->file(c.file);
   if (!file) throw Error("", "There is no such file");
-  push_later({fmt::format("{} ({})", title_of(c.operation), scene_name(file->path)),
-              {},
-              [c, scene = ws_.scene](Document* document, const EditContext& context, const Job&) {
-                return edit_selection(document, gaussians_of(*scene, c.file), c.operation, context);
-              }});
+  push_once_cut(c.operation,
+                {fmt::format("{} ({})", title_of(c.operation), scene_name(file->path)),
+                 {},
+                 [c, scene = ws_.scene](Document* document, const EditContext& context, const Job&) {
+                   return edit_selection(document, gaussians_of(*scene, c.file), c.operation, context);
+                 }});
 }
 
 void Edits::perform(const SelectRange& c) {
   ws_.require_scene();
   const char* const names[] = {" (opacity)", " (size)", " (depth)", " (needles)"};
-  push_later(
+  push_once_cut(
+      c.operation,
       {std::string(title_of(c.operation)) + names[static_cast<int>(c.property)],
        {},
        [c, camera = viewport_.pane_camera()](Document* document, const EditContext& context, const Job&) {

@@ -2,8 +2,8 @@
 //
 // Edits that pass over the scene's Gaussians (selections, growing, merging) run on the worker from a snapshot
 // of the document; commands that come meanwhile wait their turn. If the document changes all the same,
-// because a cut ends, the edit runs again on the new document. What is done to an object's Gaussians waits
-// for the cut that is to find them.
+// because a cut ends, the edit runs again on the new document. What takes from an object's Gaussians or works
+// on all of them waits for the cut that is to find them; what only adds some does not.
 #pragma once
 
 #include <deque>
@@ -23,14 +23,22 @@ class Edits {
 
   // Fate of a waiting command if the edits before it are cancelled.
   enum class OnCancel { kDropped, kStays };
-  // Runs the command now, or after the edits that were asked for before it.
-  void in_turn(std::function<void()> command, OnCancel on_cancel = OnCancel::kDropped);
-  // Runs the command once no cut is on its way; commands that come meanwhile wait their turn. No edit may be
-  // under way. title: name of the command, for the message.
-  void after_cuts(const std::string& title, std::function<void()> command);
+  // Runs the command now, or after the edits that were asked for before it. writes: name of a command that
+  // writes a file; empty: it writes none.
+  void in_turn(std::function<void()> command, OnCancel on_cancel = OnCancel::kDropped,
+               std::string writes = {});
+  // Runs the command now, or when no command waits any more that another scene would drop.
+  void at_last(std::function<void()> command);
+  // Runs the command once no cut is on its way; commands that come meanwhile wait their turn. If a cut fails,
+  // the command is dropped, and that is said. No edit may be under way. title: name of the command, for
+  // messages; writes_file: as the command's trait.
+  void after_cuts(const std::string& title, std::function<void()> command, bool writes_file = false);
+  // Runs the command now if it adds to an object, else as after_cuts() does.
+  void once_cut(SetOperation operation, const std::string& title, std::function<void()> command);
   void update();                               // runs what waits for cuts; called once a frame
   bool waiting() const { return under_way_; }  // true: an edit is under way, or waits for cuts
   bool waits_for_cuts() const { return for_cuts_ != nullptr; }
+  bool file_waits() const { return !files_waiting().empty(); }  // true: a file is yet to be written
   // Cancels that edit and the waiting commands that do not stay. Returns false if no edit is under way.
   bool cancel();
   // Cancels and forgets everything of the last scene; same: of its last files, and what stays waits on.
@@ -48,6 +56,7 @@ class Edits {
     bool replaces = false;
   };
   void push_later(const Step& step);  // runs the step on the worker, then makes its result the document
+  void push_once_cut(SetOperation operation, const Step& step);  // push_later() as once_cut() does
   // Combines the active object with a selection, as a step on the worker.
   void select_later(Selection region, SetOperation operation, std::string title);
   // An edit is under way from now on whose step is yet to be found out on Workspace::tasks. Returns its
@@ -75,6 +84,7 @@ class Edits {
  private:
   void start(const Step& step);
   void finish();
+  std::vector<std::string> files_waiting() const;  // names of the commands that are to write them
   template <class C>
   void change_all(const C& c);
   void require_gaussian(std::int32_t gaussian) const;
@@ -86,9 +96,14 @@ class Edits {
   bool under_way_ = false;
   std::uint64_t number_ = 0;        // number of the edit that is under way
   std::function<void()> for_cuts_;  // command that waits for cuts; null: none does
+  std::string for_cuts_title_;
+  bool for_cuts_writes_ = false;
+  std::uint64_t cuts_failed_ = 0;  // CutJobs::failed() when it began to wait
+  std::vector<std::string> lost_;  // names of files_waiting() that another scene dropped; not said yet
   struct Waiting {
     std::function<void()> command;
     OnCancel on_cancel;
+    std::string writes;  // as in in_turn()
   };
   std::deque<Waiting> waiting_;
   std::string volume_key_;   // merge key of the last volume's step

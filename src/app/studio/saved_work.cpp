@@ -21,11 +21,6 @@ namespace {
 constexpr double kAutosaveAfterSeconds = 0.3, kAutosaveAtLatestSeconds = 2, kAutosaveViewAfterSeconds = 10,
                  kAutosaveAgainSeconds = 30, kRestOverWriting = 3;
 
-bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
-  std::error_code ignored;
-  return !a.empty() && !b.empty() && std::filesystem::equivalent(a, b, ignored);
-}
-
 }  // namespace
 
 SavedWork::SavedWork(Workspace& workspace, Viewport& viewport, const CutJobs& cuts)
@@ -34,10 +29,13 @@ SavedWork::SavedWork(Workspace& workspace, Viewport& viewport, const CutJobs& cu
   find_offers();
 }
 
+// Nothing is work, too, where there was some: it was all removed.
 bool SavedWork::unsaved() const {
-  const Document& document = ws_.document();
-  const bool several = ws_.scene && ws_.scene->files.size() > 1;
-  return (!document.objects.empty() || document.deleted || several) && differs();
+  return ws_.scene && (saved_is_work_ || is_work(ws_.document())) && differs();
+}
+
+bool SavedWork::is_work(const Document& document) const {
+  return !document.objects.empty() || document.deleted || ws_.scene->files.size() > 1;
 }
 
 // What is chosen and what lies behind the scene is no work.
@@ -55,6 +53,7 @@ bool SavedWork::differs() const {
 void SavedWork::keep_as_saved(std::uint64_t serial, const Document& document, std::uint64_t scene) {
   saved_serial_ = serial;
   saved_document_ = document;
+  saved_is_work_ = is_work(document);
   saved_scene_ = scene;
   compared_serial_ = 0;
 }
@@ -222,7 +221,7 @@ void SavedWork::leave() {
 void SavedWork::perform(const SaveWork& c) {
   ws_.require_scene();
   std::filesystem::path path = c.path;
-  if (!is_work_file(path)) path += ".splatcut.json";
+  if (!is_work_file(path)) path += kWorkEnding;
   refuse_written_inputs(path, ws_.scene->scene->files);
   ws_.tasks.submit(TaskKind::kSave,
                    [this, path, serial = ws_.history.serial(), document = ws_.document(), view = seen(),

@@ -46,9 +46,10 @@ class SavedWork {
 
  private:
   TaskThread::Work autosaving();
-  Image<Rgb8> small_picture() const;  // of what the view shows; empty: nothing is drawn yet
-  WorkView seen() const;              // what the window shows
-  bool differs() const;               // the document does from the saved one
+  Image<Rgb8> small_picture() const;             // of what the view shows; empty: nothing is drawn yet
+  WorkView seen() const;                         // what the window shows
+  bool differs() const;                          // the document does from the saved one
+  bool is_work(const Document& document) const;  // it, or the scene's files, are more than a scene as opened
   void keep_as_saved(std::uint64_t serial, const Document& document, std::uint64_t scene);
   void look_for_more(double seconds);
   void find_offers();
@@ -71,6 +72,7 @@ class SavedWork {
   // Serials of the documents that the autosave and the user's file hold; 0: the file holds none.
   std::uint64_t autosaved_serial_ = 0, saved_serial_ = 0;
   Document saved_document_;        // that of saved_serial_, if that is not 0
+  bool saved_is_work_ = false;     // is_work() of what was saved or opened last
   std::uint64_t saved_scene_ = 0;  // OpenedScene::serial of its scene
   // Serial of the last document that was compared with it, and whether that differs.
   mutable std::uint64_t compared_serial_ = 0;

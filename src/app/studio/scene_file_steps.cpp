@@ -26,6 +26,7 @@ void SceneFiles::keep_before(Kept kept) {
 
 void SceneFiles::go_back_to(Kept kept) {
   stop_for_loading();
+  interrupted_.reset();
   cancel_loading();
   preparing_stopped_ = false;
   take(kept.scene);

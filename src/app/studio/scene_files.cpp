@@ -59,10 +59,14 @@ void SceneFiles::perform(const OpenScene& c) {
   opening_ = left == offers.end() ? "Opening " + scene_name(c.path) : "Restoring unsaved work: " + left->says;
   ws_.say(Message::Kind::kInfo, opening_);
   stop_for_loading();
+  if (changing()) interrupted_ = last_change_;
   changing_to_.clear();
   std::vector<SceneSource> files = {
       {.path = c.path, .spz_axes = c.spz_axes, .cameras = c.cameras, .camera = c.camera, .lod = c.lod}};
-  const TaskThread::Order order(TaskKind::kLoad, [this] { opening_.clear(); });
+  const TaskThread::Order order(TaskKind::kLoad, [this] {
+    opening_.clear();
+    go_on_changing();
+  });
   ws_.tasks.submit(order, [this, path = c.path, files, added = c.added, axes = c.spz_axes, serial,
                            id = next_file_id_](const Job& job) mutable {
     std::optional<WorkFile> file;
@@ -135,10 +139,21 @@ void SceneFiles::say_refused(const std::vector<std::string>& refused) {
 }
 
 void SceneFiles::cancel_loading() {
+  const bool opens = !opening_.empty();
+  stop_loading();
+  if (opens && interrupted_) return go_on_changing();
+  filling_.reset();
+}
+
+void SceneFiles::go_on_changing() {
+  if (const std::optional<Change> change = std::exchange(interrupted_, {}))
+    change_files(change->files, change->doing, change->said);
+}
+
+void SceneFiles::stop_loading() {
   ++next_scene_serial_;  // what is on its way is not the last
   ws_.tasks.cancel(TaskKind::kLoad);
   changing_to_.clear();
-  filling_.reset();
   opening_.clear();
 }
 
@@ -221,6 +236,7 @@ void SceneFiles::change_files(std::vector<SceneSource> files, const std::string&
   ws_.say(Message::Kind::kInfo, doing);
   stop_for_loading();
   changing_to_ = files;
+  last_change_ = {files, doing, said};
   const TaskThread::Order order(TaskKind::kLoad, [this] { changing_to_.clear(); });
   ws_.tasks.submit(order, [this, files = std::move(files), before = ws_.scene, serial = next_scene_serial_++,
                            said = std::move(said)](const Job& job) mutable {
@@ -252,7 +268,7 @@ void SceneFiles::carry_document(const std::shared_ptr<OpenedScene>& scene, const
     const Flags replaced = fill && scene->file(fill->file) ? carry.carried(fill->replaced) : nullptr;
     if (job.cancelled()) return;
     ws_.tasks.post([this, scene, said, replaced, before, history = std::move(history), serial] {
-      calls_.in_turn([this, scene, said, replaced, before, history, serial] {
+      calls_.at_last([this, scene, said, replaced, before, history, serial] {
         if (scene->files.front().id != ws_.scene->files.front().id) return;  // another one was opened
         if (!is_last(*scene)) return say_refused(said.refused);
         if (before != ws_.scene || serial != ws_.history.serial()) return carry_document(scene, said);
@@ -307,6 +323,7 @@ void SceneFiles::opened(const std::shared_ptr<OpenedScene>& scene, const std::op
   before_files_.clear();
   undone_files_.clear();
   filling_.reset();
+  interrupted_.reset();
   take(scene);
   Document start;
   start.up_world = scene->views().up_world;
@@ -327,6 +344,7 @@ void SceneFiles::opened(const std::shared_ptr<OpenedScene>& scene, const std::op
 }
 
 void SceneFiles::update() {
+  if (redo_steps_ != ws_.history.steps_serial()) undone_files_.clear();  // nothing leads to them any more
   if (!ws_.scene || ws_.tasks.busy(TaskKind::kLoad)) return;
   if (std::exchange(preparing_stopped_, false)) start_preparing();
 }

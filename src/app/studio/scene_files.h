@@ -24,15 +24,17 @@ class SceneFiles {
     // Called when the workspace has another scene and document, before the view is set up. same: it is the
     // same scene with other files in it, or with files placed otherwise.
     std::function<void(bool same)> opened;
-    // Runs a function after the edits that were asked for before it.
-    std::function<void(std::function<void()>)> in_turn;
+    // Runs a function after all commands that wait: another scene would drop them.
+    std::function<void(std::function<void()>)> at_last;
     // Returns the scene without the active object, its hole filled; null: that is not known.
     std::function<std::shared_ptr<const SceneWithout>()> without;
   };
   SceneFiles(Workspace& workspace, Viewport& viewport, CutJobs& cuts, SavedWork& work, Calls calls);
 
-  void update();          // resumes preparing if a scene could not be opened; called once a frame
-  void cancel_loading();  // stops opening and changing files; the scene stays as it is
+  void update();  // resumes preparing if a scene could not be opened; called once a frame
+  // Stops opening another scene, else changing files; the scene stays as it is. A change of files that was
+  // stopped for the other scene goes on, as it does if that cannot be opened.
+  void cancel_loading();
   bool changing() const { return !changing_to_.empty(); }  // true: a change of files is under way
   bool stop_changing();                                    // cancels it; returns false if there is none
   // undo_files() and redo_files() undo or redo a change of files, if that is the next step to undo or redo.
@@ -40,6 +42,8 @@ class SceneFiles {
   // the scene before the change is no longer kept, which is said.
   bool undo_files();
   bool redo_files();
+  // Number of scenes that undo and redo can go back to.
+  std::size_t scenes_kept() const { return before_files_.size() + undone_files_.size(); }
   bool stays(const History::Entry& step) const;  // true: it changed files and cannot be undone any more
   bool can_redo_files() const { return !ws_.history.can_redo() && !redo_titles().empty(); }
   // Titles, as row_title() has them, of the steps that lie behind the end of the history, the next to redo
@@ -86,6 +90,8 @@ class SceneFiles {
     std::optional<glm::vec3> put_on_world = {};  // where an added file may have come to stand in that view
   };
   void change_files(std::vector<SceneSource> files, const std::string& doing, Said said);
+  void stop_loading();
+  void go_on_changing();  // with `interrupted_`
   void say_refused(const std::vector<std::string>& refused);
   bool is_last(const OpenedScene& scene) const;
   void carry_document(const std::shared_ptr<OpenedScene>& scene, const Said& said);
@@ -106,6 +112,13 @@ class SceneFiles {
   std::uint64_t next_scene_serial_ = 1;
   std::uint32_t next_file_id_ = 1;
   std::vector<SceneSource> changing_to_;  // files of the scene that is being made; empty: none is made
+  struct Change {
+    std::vector<SceneSource> files;
+    std::string doing;
+    Said said;
+  };
+  Change last_change_;                 // it is under way where changing()
+  std::optional<Change> interrupted_;  // change that was under way when another scene was to be opened
 
   struct Fill {
     std::uint32_t file = 0;

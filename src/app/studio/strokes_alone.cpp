@@ -44,15 +44,19 @@ void Clicks::perform(const IntersectStroke& c) {
   if (c.stroke.points_px.empty()) throw Error("", "The stroke has no points");
   if (!hits_anything({c.camera, c.stroke, c.seen}))
     throw Error("", "There is nothing in that place", "Click on something that can be seen");
-  combine_with({c.camera, c.stroke, c.seen}, SetOperation::kIntersect, "Intersect (click)");
+  const CameraStroke alone{c.camera, c.stroke, c.seen};
+  edits_.once_cut(SetOperation::kIntersect, "Intersect (click)",
+                  [this, alone] { combine_with(alone, SetOperation::kIntersect, "Intersect (click)"); });
 }
 
 void Clicks::perform(const AddBox& c) {
   ws_.require_scene();
   if (c.operation != SetOperation::kAdd) {
-    const bool removes = c.operation == SetOperation::kRemove;
-    return combine_with({c.camera, stroke_of(c, SeedLabel::kObject), c.seen}, c.operation,
-                        removes ? "Remove (box)" : "Intersect (box)");
+    const std::string title = std::string(title_of(c.operation)) + " (box)";
+    const CameraStroke alone{c.camera, stroke_of(c, SeedLabel::kObject), c.seen};
+    return edits_.once_cut(c.operation, title, [this, alone, operation = c.operation, title] {
+      combine_with(alone, operation, title);
+    });
   }
   AddBox made = c;
   if (asks_what_is_hit(ws_.document(), SeedLabel::kObject, ws_.context()))

@@ -15,11 +15,10 @@ Studio::Studio(const StudioOptions& options)
       edits_(ws_, viewport_, cuts_),
       clicks_(ws_, viewport_, cuts_, edits_),
       work_(ws_, viewport_, cuts_),
-      files_(
-          ws_, viewport_, cuts_, work_,
-          {[this](bool same) { scene_opened(same); },
-           [this](std::function<void()> next) { edits_.in_turn(std::move(next), Edits::OnCancel::kStays); },
-           [this] { return clean_edges_.without(); }}),
+      files_(ws_, viewport_, cuts_, work_,
+             {[this](bool same) { scene_opened(same); },
+              [this](std::function<void()> next) { edits_.at_last(std::move(next)); },
+              [this] { return clean_edges_.without(); }}),
       exports_(ws_, viewport_),
       clean_edges_(ws_, viewport_, cuts_),
       seen_views_(ws_, viewport_, cuts_),
@@ -33,6 +32,19 @@ Studio::Studio(const StudioOptions& options)
 
 Studio::~Studio() = default;
 
+namespace {
+
+// What a command that writes a file is called in messages; empty: it writes none.
+template <class C>
+std::string written_name(const C& command) {
+  if constexpr (requires { command.title(); })
+    return kWritesFile<C> ? command.title() : std::string();
+  else
+    return kWritesFile<C> ? "Saving" : "";
+}
+
+}  // namespace
+
 void Studio::apply(const Command& command) {
   std::visit(
       [&](const auto& c) {
@@ -43,9 +55,15 @@ void Studio::apply(const Command& command) {
                 follow_document();
                 apply(command);
               },
-              kWritesFile<C> ? Edits::OnCancel::kStays : Edits::OnCancel::kDropped);
+              kWritesFile<C> ? Edits::OnCancel::kStays : Edits::OnCancel::kDropped, written_name(c));
         if constexpr (kAfterCuts<C>)
-          if (cuts_.next() != 0) return edits_.after_cuts(c.title(), [this, command] { dispatch(command); });
+          if (cuts_.next() != 0)
+            return edits_.after_cuts(
+                c.title(), [this, command] { dispatch(command); }, kWritesFile<C>);
+        if (std::is_same_v<C, OpenScene> && edits_.file_waits()) {
+          ws_.say(Message::Kind::kInfo, "The scene is opened as soon as the file that waits is written");
+          return edits_.in_turn([this, command] { dispatch(command); }, Edits::OnCancel::kStays);
+        }
         dispatch(command);
       },
       command);

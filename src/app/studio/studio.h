@@ -5,8 +5,8 @@
 // what it shows from the parts. Events of a test and of the window run the very same code. Files, cuts, edits
 // of many Gaussians, styles and pictures are made on workers and arrive in update(). What is left for the
 // main thread costs at most a few milliseconds a million Gaussians: picking where no picture shows the view
-// yet, and labels of an object that changed. Errors: every Error ends in apply() or update() and becomes a
-// message.
+// yet, and labels of an object that changed; of each object where a stroke begins another one. Errors: every
+// Error ends in apply() or update() and becomes a message.
 #pragma once
 
 #include <functional>

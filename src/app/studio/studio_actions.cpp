@@ -25,6 +25,10 @@ std::string without_scene(const Studio& s) {
   return s.scene() ? "" : "Open a scene first";
 }
 
+std::string without_anything_to_stop(const Studio& s) {
+  return s.loading() ? "" : without_scene(s);
+}
+
 std::string without_undo(const Studio& s) {
   if (!s.scene()) return without_scene(s);
   return s.history().can_undo() || s.files().changing() ? "" : "There is nothing to undo";
@@ -65,7 +69,8 @@ std::string without_cutout(const Studio& s) {
 std::string without_strokes(const Studio& s) {
   if (!s.scene()) return without_scene(s);
   const ObjectItem* active = s.document().active_object();
-  return active && !active->views.empty() ? "" : "The object has no strokes";
+  if (!active || active->views.empty()) return "The object has no strokes";
+  return active->locked ? active->name + " is locked" : "";
 }
 
 std::string without_cameras(const Studio& s) {
@@ -117,7 +122,7 @@ const Studio::ActionRow* Studio::row_of(Action action) {
       {Action::kHistory, without_scene, [](S& s) { s.ask(UiRequest::kHistory); }},
       {Action::kUndo, without_undo, [](S& s) { s.apply(Undo{}); }, kWaits},
       {Action::kRedo, without_redo, [](S& s) { s.apply(Redo{}); }, kWaits},
-      {Action::kCancel, without_scene, [](S& s) { s.apply(Cancel{}); }},
+      {Action::kCancel, without_anything_to_stop, [](S& s) { s.apply(Cancel{}); }},
       {Action::kCursor, without_scene,
        [](S& s) {
          s.move_cursor({0, 0});

@@ -10,17 +10,18 @@
 #include <sstream>
 #include <utility>
 
+#include "app/work/work_file.h"
 #include "app/work/work_picture.h"
 
 namespace splatcut {
 
 namespace {
 
-constexpr const char *kFirst = "autosave", *kLast = ".splatcut.json";
+constexpr std::string_view kFirst = "autosave";
 
 std::filesystem::path lock_beside(const std::filesystem::path& file) {
   std::string path = file.string();
-  return path.replace(path.size() - std::string(kLast).size(), std::string::npos, ".lock");
+  return path.replace(path.size() - kWorkEnding.size(), std::string::npos, ".lock");
 }
 
 // -1 where another program holds it. Children do not inherit it.
@@ -70,7 +71,7 @@ void Autosaves::hold_left_behind(const std::filesystem::path& folder) {
   for (auto entry = std::filesystem::directory_iterator(folder, trouble);
        !trouble && entry != std::filesystem::directory_iterator(); entry.increment(trouble)) {
     const std::string name = entry->path().filename().string();
-    if (!name.starts_with(kFirst) || !name.ends_with(kLast)) continue;
+    if (!name.starts_with(kFirst) || !name.ends_with(kWorkEnding)) continue;
     std::error_code unreadable;
     const auto written = entry->last_write_time(unreadable);
     const auto known = std::ranges::find(left_, entry->path(), &Held::file);
@@ -85,10 +86,10 @@ void Autosaves::hold_left_behind(const std::filesystem::path& folder) {
 }
 
 void Autosaves::hold_own(const std::filesystem::path& folder) {
-  constexpr int kMostPrograms = 100;
-  for (int number = 1; number <= kMostPrograms && own_.lock < 0; ++number) {
+  constexpr int kMostFiles = 10'000;  // of programs that run, and of work that was left
+  for (int number = 1; number <= kMostFiles && own_.lock < 0; ++number) {
     const std::string middle = number == 1 ? "" : fmt::format(".{}", number);
-    const std::filesystem::path file = folder / (kFirst + middle + kLast);
+    const std::filesystem::path file = folder / fmt::format("{}{}{}", kFirst, middle, kWorkEnding);
     std::error_code unreadable;
     if (std::filesystem::exists(file, unreadable) || unreadable) continue;
     const int lock = lock_of(file);
@@ -105,8 +106,7 @@ std::vector<std::filesystem::path> Autosaves::left_behind() const {
 }
 
 void Autosaves::leave_own() {
-  constexpr std::size_t kMostLeft = 20;
-  if (own_.lock < 0 || left_.size() >= kMostLeft) return;
+  if (own_.lock < 0) return;
   own_.written = std::filesystem::file_time_type::clock::now();
   left_.push_back(std::exchange(own_, {}));
   hold_own(folder_);

@@ -28,7 +28,7 @@ class Autosaves {
   void look_again() {
     if (!folder_.empty()) hold_left_behind(folder_);
   }
-  // The own file counts as left behind from now on, and another takes its place; not where many are left.
+  // The own file counts as left behind from now on, however many are, and another takes its place.
   void leave_own();
   // Deletes a file that was left behind, and its picture; ignores any other.
   void remove(const std::filesystem::path& file);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "app/work/work_file.h"
 #include "core/lower_case.h"
 #include "scene/formats/scene_formats.h"
 
@@ -21,11 +22,11 @@ FileKind kind_of(FilePurpose purpose) {
   switch (purpose) {
     case FilePurpose::kOpen:
       return {"Open a scene or saved work", "Open", "",
-              with(extensions_of(read_formats()), ".splatcut.json")};
+              with(extensions_of(read_formats()), kWorkEnding.data())};
     case FilePurpose::kAdd:
       return {"Add a scene to this one", "Add", "", extensions_of(read_formats())};
     case FilePurpose::kSaveWork:
-      return {"Save the work", "Save", ".splatcut.json", {".splatcut.json"}};
+      return {"Save the work", "Save", kWorkEnding.data(), {std::string(kWorkEnding)}};
     case FilePurpose::kSnapshot:
       return {"Save a picture of the view, with transparency", "Save", ".png", {".png"}};
     case FilePurpose::kTurntable:

@@ -134,7 +134,7 @@ void read_history(const json& said, const Scene& scene, RestoredWork* work) {
 }  // namespace
 
 bool is_work_file(const std::filesystem::path& path) {
-  return path.string().ends_with(".splatcut.json");
+  return path.string().ends_with(kWorkEnding);
 }
 
 WorkFile read_work_file(const std::filesystem::path& path) {

@@ -52,6 +52,7 @@ struct RestoredWork {
   std::filesystem::path saved_as;  // of an autosave: the user's own file, where there was one
 };
 
+inline constexpr std::string_view kWorkEnding = ".splatcut.json";
 bool is_work_file(const std::filesystem::path& path);  // true if the name ends like one
 
 // Reads a work file. Throws Error for a file that is none, or is of a version that this program does not

@@ -1,4 +1,5 @@
 #include "app/work/work_picture.h"
+#include "app/work/work_file.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -15,7 +16,6 @@ namespace splatcut {
 namespace {
 
 constexpr int kSamples = 4;  // along each side of a pixel
-constexpr std::string_view kWorkEnding = ".splatcut.json";
 
 int place_of(int sample, int samples, int size) {
   const std::int64_t place = (2 * std::int64_t{sample} + 1) * size / (2 * std::int64_t{samples});

@@ -94,6 +94,7 @@ void CutJobs::update() {
 void CutJobs::recompute() {
   const ObjectItem* object = ws_.document().active_object();
   if (!object || object->views.empty()) throw Error("", "The object has no strokes", "Click on it first");
+  if (object->locked) throw Error(object->name, "is locked", "Unlock it in the objects panel");
   want_again(*object);
   ws_.session = std::make_shared<Session>(ws_.session->scene());  // with empty caches
   ahead_.clear();
@@ -158,7 +159,9 @@ void CutJobs::start(const ObjectItem& object, bool anew) {
   running_ = Known{object.id, std::move(run)};
   // If the labels have arrived already, only pictures or the heat map failed: the cut stands.
   const auto failed = [this, order] {
-    if (runs(order)) end(order.key);
+    if (!runs(order)) return;
+    end(order.key);
+    ++failed_;
   };
   for (const TaskKind kind : {TaskKind::kHover, TaskKind::kClean, TaskKind::kSeen}) ws_.tasks.cancel(kind);
   if (anew || !take_known(order))

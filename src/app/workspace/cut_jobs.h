@@ -25,6 +25,7 @@ class CutJobs {
   const CutRun* run(ObjectId object) const;
   ObjectId cutting() const { return running_ ? running_->object : 0; }  // object whose cut runs; 0: none
   std::uint64_t done() const { return done_; }                          // number of cuts finished so far
+  std::uint64_t failed() const { return failed_; }  // number of cuts that ended in an error
 
   // True if the object's labels are on their way: its cut runs, or will. A locked object keeps the cut it
   // has.
@@ -33,7 +34,8 @@ class CutJobs {
 
   void reset();   // stops and forgets everything of the last scene
   void update();  // starts and stops cuts as the document asks; called once a frame
-  // Cuts the active object again without anything that is cached. Throws Error if it has no strokes.
+  // Cuts the active object again without anything that is cached. Throws Error if it has no strokes or is
+  // locked.
   void recompute();
   // cancel() and cancel_likelihood() stop the running cut, or the likelihood of the active object, and give
   // it up: update() does not start it again. They return false if it does not run.
@@ -119,7 +121,7 @@ class CutJobs {
   std::string so_already_;                      // key, see note_so_already()
   std::map<ObjectId, std::vector<std::string>> doubts_said_;  // after the last cut
   std::map<ObjectId, std::string> sides_said_;                // the same, of the pictures of its sides
-  std::uint64_t next_card_serial_ = 1, started_ = 0, done_ = 0;
+  std::uint64_t next_card_serial_ = 1, started_ = 0, done_ = 0, failed_ = 0;
 };
 
 }  // namespace splatcut

@@ -1,11 +1,11 @@
 #include "segment/session/cut_request.h"
 
 #include <algorithm>
-#include <memory>
 #include <mutex>
 #include <span>
 #include <string_view>
 #include <type_traits>
+#include <unordered_map>
 
 #include "core/byte_hash.h"
 
@@ -13,26 +13,21 @@ namespace splatcut {
 
 namespace {
 
-// Of a set's flags. Sets do not change while anybody holds them, and none can take the place of another that
-// is still known here: so one is hashed once, however many keys it enters.
+// Keys of a whole history hold the same few arrays again and again, which never change: each is read once.
 std::uint64_t hash_of(const SeenGaussians& seen) {
   struct Known {
-    std::weak_ptr<const std::vector<std::uint8_t>> set;
-    std::uint64_t hash;
+    SeenGaussians::weak_type array;
+    std::uint64_t hash = 0;
   };
-  constexpr std::size_t kMostKnown = 16;
   static std::mutex mutex;
-  static std::vector<Known> known;
-  {
-    const std::lock_guard lock(mutex);
-    for (const Known& k : known)
-      if (k.set.lock() == seen) return k.hash;
-  }
-  const std::uint64_t hash = hash_bytes(std::as_bytes(std::span(*seen)));
+  static std::unordered_map<const void*, Known> known;  // by address, which is not used again before
   const std::lock_guard lock(mutex);
-  std::erase_if(known, [](const Known& k) { return k.set.expired(); });
-  if (known.size() == kMostKnown) known.erase(known.begin());
-  known.push_back({seen, hash});
+  Known& one = known[seen.get()];
+  if (one.array.lock() == seen) return one.hash;
+  one = {seen, hash_bytes(std::as_bytes(std::span(*seen)))};
+  const std::uint64_t hash = one.hash;
+  constexpr std::size_t kMostKnown = 1024;
+  if (known.size() > kMostKnown) std::erase_if(known, [](const auto& k) { return k.second.array.expired(); });
   return hash;
 }
 

@@ -187,6 +187,30 @@ TEST_CASE("marks: what a click took from another object is left to that again on
   CHECK(*left() == hands.studio().labels(document.objects.front().id));
 }
 
+TEST_CASE("marks: the same where another object is locked, which keeps what it has") {
+  Hands hands;
+  Studio& studio = hands.studio();
+  const glm::vec2 on_apple = hands.app.screen_of(kOnApple), on_orange = hands.app.screen_of(kOnOrange);
+  hands.app.key('N', {.ctrl = true});
+  hands.app.click(hands.app.screen_of(kOnMug));
+  REQUIRE(hands.app.settle());
+  const ObjectId mug = studio.document().active;
+  studio.apply(LockObject{mug, true});
+  hands.app.key('N', {.ctrl = true});
+  hands.app.click(on_orange);
+  const auto orange = labels_of_active(hands);
+  const auto left = [&] { return studio.document().active_object()->of_others; };
+  REQUIRE(left());
+  const std::vector<std::uint8_t> left_before = *left();
+  hands.app.click(on_apple);
+  REQUIRE(hands.app.settle());
+  REQUIRE(left());
+  REQUIRE(*left() != left_before);  // the mug's alone
+  click_again(hands, on_apple);
+  CHECK(labels_of_active(hands) == orange);
+  CHECK(*left() == left_before);
+}
+
 TEST_CASE("marks: a click where the pointer still stands is one more") {
   Hands hands;
   hands.app.click(hands.app.screen_of(kOnApple), PointerButton::kRight);

@@ -6,9 +6,12 @@
 
 #include <algorithm>
 #include <chrono>
+#include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <thread>
 
+#include "app/work/autosaves.h"
 #include "app/work/work_file.h"
 #include "opened_sample.h"
 
@@ -397,4 +400,20 @@ TEST_CASE("work that was not saved is offered where another scene was opened in 
   app.open(kSample);
   REQUIRE(app.settle());
   CHECK(app.studio().work().offers().size() == 1);
+}
+
+TEST_CASE("work that another scene replaces is kept however much was left before") {
+  const ScratchFolder folder("much_left");
+  constexpr std::size_t kWorks = 120;
+  Autosaves autosaves(folder.path());
+  std::set<std::filesystem::path> left;
+  for (std::size_t i = 0; i < kWorks; ++i) {
+    REQUIRE_FALSE(autosaves.own().empty());
+    left.insert(autosaves.own());
+    std::ofstream(autosaves.own()) << "work " << i;
+    autosaves.leave_own();
+  }
+  CHECK(left.size() == kWorks);
+  CHECK(autosaves.left_behind().size() == kWorks);
+  CHECK_FALSE(left.contains(autosaves.own()));
 }

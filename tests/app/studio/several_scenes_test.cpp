@@ -10,6 +10,7 @@
 #include "app/document/carried_document.h"
 #include "app/work/work_file.h"
 #include "core/byte_hash.h"
+#include "core/error.h"
 #include "core/json_file.h"
 #include "hands.h"
 #include "opened_sample.h"

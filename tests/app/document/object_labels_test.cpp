@@ -1,0 +1,159 @@
+// What edits make of labels: who has what, what is counted, what a lock costs; and how a history is read
+// again.
+#include <doctest/doctest.h>
+
+#include <chrono>
+#include <fstream>
+#include <random>
+
+#include "app/document/document_edits.h"
+#include "core/json_file.h"
+#include "hands.h"
+#include "reopened.h"
+#include "synthetic_cloud.h"
+
+using namespace splatcut;
+using namespace splatcut::testing;
+
+namespace {
+
+Flags some_flags(std::mt19937& random, std::size_t n, unsigned values) {
+  if (random() % 4 == 0) return nullptr;
+  std::vector<std::uint8_t> flags(n);
+  for (std::uint8_t& flag : flags) flag = static_cast<std::uint8_t>(random() % values);
+  return make_flags(std::move(flags));
+}
+
+Document some_objects(std::mt19937& random, std::size_t n) {
+  constexpr int kObjects = 6;
+  Document document;
+  document.deleted = some_flags(random, n, 2);
+  for (int i = 0; i < kObjects; ++i) {
+    ObjectItem& object = add_object(&document);
+    object.cut = some_flags(random, n, 2);
+    object.hand = some_flags(random, n, 4);
+    object.of_others = some_flags(random, n, 2);
+    if (i > 0 && random() % 2) object.within = document.objects[random() % static_cast<unsigned>(i)].id;
+  }
+  return document;
+}
+
+double seconds_since(const std::chrono::steady_clock::time_point& start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace
+
+TEST_CASE("object labels: one of them is as all of them are, and a lock leaves each object what it had") {
+  constexpr std::size_t kFew = 40;
+  const GaussianCloud cloud = random_cloud(kFew, 1, 0);
+  for (unsigned seed = 0; seed < 50; ++seed) {
+    std::mt19937 random(seed);
+    Document document = some_objects(random, kFew), slowly = document;
+    for (const ObjectItem& object : document.objects) {
+      const std::vector<std::uint8_t> all = labels_of(document, object, kFew);
+      for (std::size_t g = 0; g < kFew; ++g) REQUIRE(has(document, object, g) == (all[g] != 0));
+    }
+    edit(&document, LockObject{2, true}, {cloud});
+    slowly.find(2)->locked = true;
+    for (ObjectItem& other : slowly.objects)
+      if (other.id != 2) leave_to_locked(slowly, &other, kFew);
+    for (std::size_t i = 0; i < document.objects.size(); ++i) {
+      const Flags &a = document.objects[i].of_others, &b = slowly.objects[i].of_others;
+      INFO(seed, " ", i);
+      REQUIRE((a != nullptr) == (b != nullptr));
+      if (a) REQUIRE(*a == *b);
+    }
+  }
+}
+
+TEST_CASE(
+    "object labels: locking hundred objects one by one keeps the window waiting for less than a second "
+    "each") {
+  constexpr std::size_t kGaussians = 60000, kObjects = 100;
+  const GaussianCloud cloud = random_cloud(kGaussians, 1, 0);
+  Document document;
+  for (std::size_t i = 0; i < kObjects; ++i) {
+    std::vector<std::uint8_t> cut(kGaussians, 0);
+    for (std::size_t g = i; g < kGaussians; g += kObjects) cut[g] = 1;
+    add_object(&document).cut = make_flags(std::move(cut));
+  }
+  const auto start = std::chrono::steady_clock::now();
+  for (ObjectId id = 1; id <= kObjects; ++id) edit(&document, LockObject{id, true}, {cloud});
+  MESSAGE(seconds_since(start), " s for all locks");
+  CHECK(seconds_since(start) < 3);
+  CHECK(count_flags(*document.objects[0].of_others) == kGaussians - kGaussians / kObjects);
+}
+
+TEST_CASE("object labels: what an edit adds is what changes, and what is deleted is not marked") {
+  const GaussianCloud cloud = random_cloud(4, 1, 0);
+  const EditContext context{cloud};
+  Document document;
+  add_object(&document);
+  document.deleted = make_flags({0, 0, 0, 1});
+  CHECK(
+      edit_selection(&document, {0, 1, 1, 1}, SetOperation::kAdd, context).starts_with("2 Gaussians added"));
+  CHECK((*document.objects[0].hand)[3] == kFollowCut);
+  edit(&document, EditSelection{SelectionEdit::kAll}, context);
+  CHECK((*document.objects[0].hand)[3] == kFollowCut);
+  ObjectItem& part = add_object(&document);
+  part.within = 1;
+  document.objects[0].hand = make_flags({kHandObject, 0, 0, 0});
+  CHECK(edit_selection(&document, {1, 1, 0, 0}, SetOperation::kAdd, context).starts_with("1 Gaussian added"));
+}
+
+TEST_CASE("object labels: keys read a large array once, however often they are made") {
+  ObjectItem object;
+  object.views.push_back({{}, {}, make_flags(std::vector<std::uint8_t>(std::size_t{64} << 20, 1))});
+  const auto start = std::chrono::steady_clock::now();
+  const std::string key = cut_key({}, object);
+  for (int i = 0; i < 1000; ++i) CHECK(cut_key({}, object) == key);
+  MESSAGE(seconds_since(start), " s for 1,001 keys");
+  CHECK(seconds_since(start) < 2);
+  object.views[0].seen = make_flags(std::vector<std::uint8_t>(std::size_t{64} << 20, 0));
+  CHECK(cut_key({}, object) != key);
+}
+
+TEST_CASE("object labels: the list of steps names the same objects once work is opened again") {
+  const ScratchFolder folder("row_titles");
+  Hands hands;
+  Studio& studio = hands.studio();
+  const ObjectId apple = studio.document().active;
+  studio.apply(NewObject{});
+  studio.apply(EditSelection{SelectionEdit::kAll});
+  REQUIRE(hands.app.settle());
+  studio.apply(EditSelection{SelectionEdit::kInvert});
+  REQUIRE(hands.app.settle());
+  studio.apply(RenameObject{apple, "Apple"});
+  const auto rows = [](const Studio& s) {
+    std::vector<std::string> titles;
+    for (std::size_t i = 1; i < s.history().entries().size(); ++i)
+      titles.push_back(row_title(s.history(), i));
+    return titles;
+  };
+  const auto expected = rows(studio);
+  REQUIRE(expected.back().find("(Apple)") != std::string::npos);
+  const auto again = reopened(hands, folder);
+  CHECK(rows(again->studio()) == expected);
+}
+
+TEST_CASE("object labels: all objects in one file do not take a file of others along") {
+  const ScratchFolder folder("foreign_names");
+  Hands hands;
+  const std::string cameras = "{\"cameras\": []}\n";
+  std::ofstream(folder / "all.json") << cameras;
+  Export all;
+  all.request = {.what = ExportWhat::kOneFile, .path = folder / "all.ply", .overwrite = true};
+  hands.studio().apply(all);
+  REQUIRE(hands.app.settle());
+  CHECK(hands.said().find("holds something else") != std::string::npos);
+  CHECK(json_of_file(folder / "all.json").contains("cameras"));
+  CHECK_FALSE(std::filesystem::exists(folder / "all.ply"));
+  std::filesystem::remove(folder / "all.json");
+  for (int again = 0; again < 2; ++again) {  // its own names are written over
+    hands.studio().apply(all);
+    REQUIRE(hands.app.settle());
+    CHECK(json_of_file(folder / "all.json").contains("objects"));
+  }
+  CHECK(hands.said().find("saved to") != std::string::npos);
+}
