@@ -84,12 +84,19 @@ CutRequest Session::in_place(const CutRequest& request, const Answered& answered
   CutRequest local = request;
   local.choice = answered.choice;
   set_size_steps(answered.size_steps, &local.strokes);
+  const std::size_t carried = answered.carried.strokes;
+  if (carried > 0 && carried <= stroke_count(request))
+    local.carried = {carried, labels_in(there->near, *answered.carried.rows)};
   if (there->near.row.empty()) return local;
   const Box box = there->near.place.cell.box_world();
   const std::vector<StrokedView> asked = std::exchange(local.strokes, {});
+  const Stroke* first = first_stroke(asked);
+  std::size_t before = 1;  // strokes that come before the next one, in replay order
   for (const StrokedView& view : asked) {
     StrokedView here{view.camera, {}, there->seen.in(there->near, view.seen)};
-    for (Stroke stroke : view.strokes) {
+    for (const Stroke& as_made : view.strokes) {
+      Stroke stroke = as_made;
+      const bool is_carried = &as_made == first ? carried > 0 : before++ < carried;
       if (stroke.label == SeedLabel::kRest) {
         const StrokeHits& at = hits({view.camera, stroke, view.seen}, job);
         const auto lies_here = [&](const auto& hit) { return hit && contains(box, *hit); };
@@ -99,7 +106,10 @@ CutRequest Session::in_place(const CutRequest& request, const Answered& answered
             inside.push_back(stroke.points_px[i]);
         stroke.points_px = std::move(inside);
       }
-      if (!stroke.points_px.empty()) here.strokes.push_back(std::move(stroke));
+      if (!stroke.points_px.empty())
+        here.strokes.push_back(std::move(stroke));
+      else if (is_carried && local.carried.strokes > 0)
+        --local.carried.strokes;
     }
     local.strokes.push_back(std::move(here));
   }
@@ -126,7 +136,9 @@ void Session::keep_offer(const CutRequest& request, const Answered& answered, co
       result->likeliest_size = static_cast<std::size_t>(  // as the wheel counts from there
           std::max<std::ptrdiff_t>(0, static_cast<std::ptrdiff_t>(result->size) - last->size_step));
   }
-  if (result->meanings.empty() || (request.choice == 0 && first_size_step(request) == 0)) return;
+  const bool in_its_own =
+      request.choice == 0 && first_size_step(request) == 0 && answered.carried.strokes == 0;
+  if (result->meanings.empty() || in_its_own) return;
   const CutRequest first = first_of(request);
   const std::optional<Answered> offered = place_of(first, settings, job);
   if (!offered || offered->place == answered.place) return;

@@ -83,6 +83,13 @@ bool covers(const Mask& mask, const CutResult& taken) {
 
 }  // namespace
 
+SeenGaussians labels_in(const Neighbourhood& near, const std::vector<std::uint32_t>& object_rows) {
+  std::vector<std::uint8_t> labels(near.cloud->size(), 0);
+  for (const std::uint32_t g : rows_among(object_rows, near.row))
+    if (g != kNotThere) labels[g] = 1;
+  return std::make_shared<const std::vector<std::uint8_t>>(std::move(labels));
+}
+
 CutRequest request_of(std::span<const CameraStroke> strokes, const CutRequest& like) {
   CutRequest request;
   for (const CameraStroke& s : strokes) request.strokes.push_back({s.camera, {s.stroke}, s.seen});
@@ -295,8 +302,24 @@ std::optional<Session::Answered> Session::place_of(const CutRequest& request, co
   return Answered{place_of_all(reference->camera), request.choice};
 }
 
-// What is taken here in a larger place, which has its own meanings and sizes, in its own order. None: it has
-// nothing like the first stroke's, or cancelled.
+// What the strokes `before` the last one say here.
+std::optional<Session::Carried> Session::carried_from(const Answered& here, const CutRequest& before,
+                                                      const CutSettings& settings, const Job& job) {
+  if (here.carried.strokes == stroke_count(before)) return here.carried;
+  Local* place = local(here.place, settings, job);
+  if (!place) return {};
+  const std::vector<std::uint8_t>& said =
+      place->session.meant(in_place(before, here, place, job), settings, job);
+  if (job.cancelled()) return {};
+  std::vector<std::uint32_t> rows;
+  for (std::uint32_t g = 0; g < said.size(); ++g)
+    if (said[g]) rows.push_back(place->near.row.empty() ? g : place->near.row[g]);
+  return Carried{stroke_count(before), std::make_shared<const std::vector<std::uint32_t>>(std::move(rows))};
+}
+
+// What is taken here in a larger place, which has its own meanings and sizes, in its own order. The last
+// stroke alone is answered anew: what those before it say was shown, and stays. None: the place has nothing
+// like a first stroke's, or cancelled.
 std::optional<Session::Answered> Session::answered_in(const Place& larger, const Answered& here,
                                                       const CutRequest& request, const CutSettings& settings,
                                                       const Job& job) {
@@ -304,20 +327,19 @@ std::optional<Session::Answered> Session::answered_in(const Place& larger, const
     return a.choice == 0 && std::ranges::all_of(a.size_steps, [](int step) { return step == 0; });
   };
   Answered there{larger, here.choice, here.size_steps};
-  if (request.first_mask || !by_parts(settings) || in_their_own(here)) return there;
-  const std::optional<Answered> first = first_answered_in(larger, here, request, settings, job);
-  if (!first) return {};
-  there = *first;
+  if (request.first_mask || !by_parts(settings)) return there;
   const std::vector<CameraStroke> strokes = in_replay_order(strokes_in_order(request));
-  for (std::size_t i = 1; i < std::min(strokes.size(), here.size_steps.size()); ++i) {
-    there.size_steps.push_back(0);
-    if (here.size_steps[i] == 0) continue;
-    const auto before = request_of(std::span(strokes).first(i), request),
-               after = request_of(std::span(strokes).first(i + 1), request);
-    there.size_steps.back() = step_in(there, here, before, after, settings, job);
-    if (job.cancelled()) return {};
+  if (strokes.size() == 1)
+    return in_their_own(here) ? there : first_answered_in(larger, here, request, settings, job);
+  const CutRequest before = request_of(std::span(strokes).first(strokes.size() - 1), request);
+  const std::optional<Carried> carried = carried_from(here, before, settings, job);
+  if (!carried) return {};
+  there.carried = *carried;
+  if (there.size_steps.size() == strokes.size() && there.size_steps.back() != 0) {
+    there.size_steps.back() = 0;
+    there.size_steps.back() = step_in(there, here, before, request_of(strokes, request), settings, job);
   }
-  return there;
+  return job.cancelled() ? std::nullopt : std::optional(there);
 }
 
 // How many of the steps go beyond the sizes that there were to choose from. Those continue in a larger place,
