@@ -10,11 +10,11 @@
 //   2. After each stroke, and again after the cut: while what is labelled touches the cell's side, or a
 //      stroke on the object hits what lies outside, the next cell is twice as large, about both. A cell
 //      that holds most of the scene is the scene. A first answer is shown while it grows. What the strokes
-//      before the one that needs a larger cell have given was shown and corrected, so it stays: their labels
-//      are carried over, leaf by leaf, whatever these strokes would mean there. Other meanings of the first
-//      click, mostly one of which is the floor or a wall, make the cell grow when they are taken: they are
-//      offered where the likeliest is answered, and found again in the larger cell by their labels. So are
-//      other sizes of the last stroke, each a step from the one before, in the cell in which that is
+//      before the one that needs a larger cell have given was shown and corrected, so it stays: where they
+//      would mean something else there, their labels are carried over, leaf by leaf. Other meanings of the
+//      first click, mostly one of which is the floor or a wall, make the cell grow when they are taken: they
+//      are offered where the likeliest is answered, and found again in the larger cell by their labels. So
+//      are other sizes of the last stroke, each a step from the one before, in the cell in which that is
 //      answered.
 // Strokes on the rest that hit nothing of the cell change nothing: there is no object there. Cuts from pixels
 // alone (the baselines) look at the whole scene. What a request asks for among some of the Gaussians is asked
@@ -140,8 +140,6 @@ class Session {
   std::optional<Answered> first_answered_in(const Place& larger, const Answered& here,
                                             const CutRequest& request, const CutSettings& settings,
                                             const Job& job);
-  std::optional<Carried> carried_from(const Answered& here, const CutRequest& before,
-                                      const CutSettings& settings, const Job& job);
   int step_in(Answered there, const Answered& here, const CutRequest& before, const CutRequest& after,
               const CutSettings& settings, const Job& job);
   void keep_offer(const CutRequest& request, const Answered& answered, const CutSettings& settings,

@@ -13,8 +13,9 @@ namespace splatcut {
 
 namespace {
 
-constexpr double kMostOfScene = 0.7;  // a cell that holds this share of the Gaussians is the scene
-constexpr int kMostHalvings = 5;      // of the first cell
+constexpr double kAlike = 0.7, kEnough = 0.9;  // IoU of labels of two places within the smaller one
+constexpr double kMostOfScene = 0.7;           // a cell that holds this share of the Gaussians is the scene
+constexpr int kMostHalvings = 5;               // of the first cell
 constexpr std::size_t kMostPlaces = 4096;
 
 Box joined(const Box& a, const Box& b) {
@@ -60,6 +61,15 @@ double likeness(std::span<const std::uint8_t> small, std::span<const std::uint8_
     either += small[g] != 0 || in_large;
   }
   return static_cast<double>(both) / static_cast<double>(std::max<std::size_t>(either, 1));
+}
+
+// rows: of the scene, that the labels are of.
+std::shared_ptr<const std::vector<std::uint32_t>> object_rows(std::span<const std::uint8_t> labels,
+                                                              std::span<const std::uint32_t> rows) {
+  std::vector<std::uint32_t> object;
+  for (std::size_t g = 0; g < labels.size(); ++g)
+    if (labels[g]) object.push_back(rows[g]);
+  return std::make_shared<const std::vector<std::uint32_t>>(std::move(object));
 }
 
 std::vector<std::uint8_t> changed(const std::vector<std::uint8_t>& before,
@@ -302,24 +312,9 @@ std::optional<Session::Answered> Session::place_of(const CutRequest& request, co
   return Answered{place_of_all(reference->camera), request.choice};
 }
 
-// What the strokes `before` the last one say here.
-std::optional<Session::Carried> Session::carried_from(const Answered& here, const CutRequest& before,
-                                                      const CutSettings& settings, const Job& job) {
-  if (here.carried.strokes == stroke_count(before)) return here.carried;
-  Local* place = local(here.place, settings, job);
-  if (!place) return {};
-  const std::vector<std::uint8_t>& said =
-      place->session.meant(in_place(before, here, place, job), settings, job);
-  if (job.cancelled()) return {};
-  std::vector<std::uint32_t> rows;
-  for (std::uint32_t g = 0; g < said.size(); ++g)
-    if (said[g]) rows.push_back(place->near.row.empty() ? g : place->near.row[g]);
-  return Carried{stroke_count(before), std::make_shared<const std::vector<std::uint32_t>>(std::move(rows))};
-}
-
-// What is taken here in a larger place, which has its own meanings and sizes, in its own order. The last
-// stroke alone is answered anew: what those before it say was shown, and stays. None: the place has nothing
-// like a first stroke's, or cancelled.
+// What is taken here in a larger place, which has its own meanings and sizes, in its own order. What the
+// strokes before the last one say was shown, and stays: where they mean something else there, it is carried
+// over. None: the place has nothing like a first stroke's, or cancelled.
 std::optional<Session::Answered> Session::answered_in(const Place& larger, const Answered& here,
                                                       const CutRequest& request, const CutSettings& settings,
                                                       const Job& job) {
@@ -332,9 +327,23 @@ std::optional<Session::Answered> Session::answered_in(const Place& larger, const
   if (strokes.size() == 1)
     return in_their_own(here) ? there : first_answered_in(larger, here, request, settings, job);
   const CutRequest before = request_of(std::span(strokes).first(strokes.size() - 1), request);
-  const std::optional<Carried> carried = carried_from(here, before, settings, job);
-  if (!carried) return {};
-  there.carried = *carried;
+  there.carried = here.carried;
+  if (here.carried.strokes < strokes.size() - 1) {
+    Local* place = local(here.place, settings, job);
+    if (!place) return {};
+    const std::vector<std::uint8_t> shown =
+        place->session.meant(in_place(before, here, place, job), settings, job);
+    const std::vector<std::uint32_t> rows = place->near.row;  // the place may be pushed out
+    there.carried = {};
+    place = local(larger, settings, job);
+    if (!place) return {};
+    const std::vector<std::uint8_t> anew =
+        place->session.meant(in_place(before, there, place, job), settings, job);
+    if (job.cancelled()) return {};
+    if (in_their_own(here) && likeness(shown, anew, rows_among(rows, place->near.row)) > kEnough)
+      return there;
+    there.carried = {strokes.size() - 1, object_rows(shown, rows)};
+  }
   if (there.size_steps.size() == strokes.size() && there.size_steps.back() != 0) {
     there.size_steps.back() = 0;
     there.size_steps.back() = step_in(there, here, before, request_of(strokes, request), settings, job);
@@ -387,7 +396,6 @@ std::optional<Session::Answered> Session::first_answered_in(const Place& larger,
                                                             const CutRequest& request,
                                                             const CutSettings& settings, const Job& job) {
   if (here.choice == 0 && here.size_steps.front() == 0) return Answered{larger, 0, {0}};
-  constexpr double kAlike = 0.7, kEnough = 0.9;  // IoU of labels within the smaller place
   const CutRequest first = first_of(request);
   CutSettings alone = settings;
   alone.parts_only = true;
