@@ -114,6 +114,10 @@ CutRequest request_of(const ObjectInput& input, const CameraOptions& camera, con
   if (!input.strokes.empty()) request.strokes = {{chosen->camera, input.strokes}};
   if (std::string both = contradiction(input.strokes); !both.empty())
     remarks->warnings.push_back(std::move(both));
+  if (!input.mask.empty() && chosen->given.size() > 1 && (camera.camera + camera.position).empty())
+    remarks->warnings.push_back(
+        fmt::format("{}: taken as a mask of the camera {}, the first of {}. --camera names another",
+                    input.mask.string(), chosen->camera.name, chosen->given.size()));
   if (!input.mask.empty()) request.first_mask = {chosen->camera, read_given_mask(input.mask, chosen->camera)};
   if (input.segmenter)
     request.first_mask = {chosen->camera, mask_from_text(*input.segmenter, cloud, chosen->camera, job)};

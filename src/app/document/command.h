@@ -225,11 +225,11 @@ struct RecolourObject {
   std::string merge_key() const { return "colour " + std::to_string(object); }
   friend std::string edit(Document* document, const RecolourObject& command, const EditContext& context);
 };
-struct ShowObject {
+struct TintObject {
   ObjectId object;
-  bool visible;
-  std::string title() const { return visible ? "Show tint" : "Hide tint"; }
-  friend std::string edit(Document* document, const ShowObject& command, const EditContext& context);
+  bool tinted;
+  std::string title() const { return tinted ? "Show tint" : "Hide tint"; }
+  friend std::string edit(Document* document, const TintObject& command, const EditContext& context);
 };
 struct LockObject {
   ObjectId object;
@@ -424,7 +424,7 @@ using Command =
     std::variant<AddStroke, IntersectStroke, AddBox, SelectRegion, SelectVolume, SelectColour, PickColour,
                  SelectFlood, SelectScene, SelectRange, ShowRange, EditSelection, ShowPlaced, DrawLarger,
                  ShowFloaters, StepScale, ChooseMeaning, RemoveStroke, ClearStrokes, ComeNearer, NewObject,
-                 RemoveObject, RenameObject, RecolourObject, ShowObject, LockObject, ActivateObject,
+                 RemoveObject, RenameObject, RecolourObject, TintObject, LockObject, ActivateObject,
                  MergeObjects, SplitObject, DuplicateObject, SeparateObject, LeaveToOthers, DeleteSelected,
                  RestoreDeleted, LeaveOutView, SetSmoothness, SetPreset, SetBackground, SetUp, Undo, Redo,
                  JumpHistory, Cancel, Recompute, SetView, GoToCamera, LookAlong, NextBackdrop, SetBackdrop,

@@ -41,7 +41,7 @@ bool same_flags(const Flags& a, const Flags& b) {
 
 bool same_but_strokes(const ObjectItem& a, const ObjectItem& b) {
   const auto plain = [](const ObjectItem& o) {
-    return std::tie(o.id, o.name, o.colour, o.visible, o.locked, o.within, o.cut_key, o.cut_kept,
+    return std::tie(o.id, o.name, o.colour, o.tinted, o.locked, o.within, o.cut_key, o.cut_kept,
                     o.leaves_also);
   };
   return plain(a) == plain(b) && same_flags(a.cut, b.cut) && same_flags(a.hand, b.hand) &&

@@ -34,7 +34,7 @@ struct ObjectItem {
   ObjectId id = 0;
   std::string name;
   Rgb8 colour{255, 140, 30};
-  bool visible = true;
+  bool tinted = true;  // the window tints and outlines it
   bool locked = false;
   ObjectId within = 0;                // earlier object that this is a part of: no labels outside of it count
   std::vector<StrokedView> views;     // views with their strokes, in the order of the strokes, see CutRequest

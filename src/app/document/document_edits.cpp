@@ -213,6 +213,16 @@ std::string edit(Document* document, const RemoveStroke& command, const EditCont
                      any_rest ? ", and those on the rest with it" : "", object.name);
 }
 
+// Leaves to others what the object left before it shared with them. What hands took since stays.
+void leave_as_before(const ObjectItem& before, ObjectItem* object) {
+  object->of_others = before.of_others;
+  if (!object->hand || !before.hand) return;
+  std::vector<std::uint8_t> hand = *object->hand;
+  for (std::size_t g = 0; g < hand.size(); ++g)
+    if (hand[g] == kHandObject && (*before.hand)[g] == kHandLeft) hand[g] = kHandLeft;
+  object->hand = make_flags(std::move(hand));
+}
+
 void take_back_sharing(const History& history, const RemoveStroke& gone, ObjectItem* object) {
   const ObjectItem* now = history.now().find(object->id);
   const Camera& camera = now->views.at(gone.view).camera;
@@ -231,7 +241,7 @@ void take_back_sharing(const History& history, const RemoveStroke& gone, ObjectI
       made = before;
       continue;
     }
-    if (before->of_others && !made->of_others && !object->of_others) set_of_others(object, before->of_others);
+    if (before->of_others && !made->of_others && !object->of_others) leave_as_before(*before, object);
     if (before->among && !made->among && !object->among) object->among = before->among;
     return;
   }

@@ -49,7 +49,7 @@ bool is_changed(const History::Entry& before, const History::Entry& after, const
     return *entry.keys[static_cast<std::size_t>(item - entry.document.objects.data())];
   };
   const auto plain = [](const ObjectItem& o) {
-    return std::tie(o.name, o.colour, o.visible, o.locked, o.within, o.hand, o.of_others, o.leaves_also);
+    return std::tie(o.name, o.colour, o.tinted, o.locked, o.within, o.hand, o.of_others, o.leaves_also);
   };
   return plain(*was) != plain(object) || keys_in(before, was) != keys_in(after, &object);
 }

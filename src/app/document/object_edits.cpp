@@ -64,10 +64,10 @@ std::string edit(Document* document, const RecolourObject& command, const EditCo
   return "Colour of " + object.name;
 }
 
-std::string edit(Document* document, const ShowObject& command, const EditContext&) {
+std::string edit(Document* document, const TintObject& command, const EditContext&) {
   ObjectItem& object = required(document, command.object);
-  object.visible = command.visible;
-  return fmt::format("The tint of {} is {}", object.name, command.visible ? "shown" : "hidden");
+  object.tinted = command.tinted;
+  return fmt::format("The tint of {} is {}", object.name, command.tinted ? "shown" : "hidden");
 }
 
 std::string edit(Document* document, const LockObject& command, const EditContext& context) {

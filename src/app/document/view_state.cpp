@@ -1,9 +1,24 @@
 #include "app/document/view_state.h"
 
+#include <fmt/format.h>
+
 namespace splatcut {
 
 ViewState turned_over(ViewState view, DisplayMode mode) {
   view.display = view.display == mode ? DisplayMode::kWhole : mode;
+  return view;
+}
+
+ViewState turned_hide(ViewState view, ObjectId chosen) {
+  if (view.display == DisplayMode::kHide) std::erase(view.hidden, chosen);
+  return turned_over(view, DisplayMode::kHide);
+}
+
+ViewState turned_eye(ViewState view, ObjectId object, ObjectId chosen) {
+  const bool shows_again = hides(view, object, chosen);
+  if (object == chosen && view.display == DisplayMode::kHide) view.display = DisplayMode::kWhole;
+  std::erase(view.hidden, object);
+  if (!shows_again) view.hidden.push_back(object);
   return view;
 }
 
@@ -33,19 +48,22 @@ ViewState turned_fill_hole(ViewState view) {
   return view;
 }
 
-const char* label_of(const ViewState& view, const ShownObject& object) {
+std::string label_of(const ViewState& view, const ShownObject& object) {
   if (shows_seen_heat(view))
     return object.heat      ? "Seen by views: red none, blue many  (Shift+M: back)"
            : object.looking ? "Looking who saw it...  (Esc: stop)"
                             : "Who saw it is not known  (Shift+M: back)";
   if (view.display == DisplayMode::kIsolate)
-    return !object.clean ? "Only the object  (I: back)" : "Only the object, edges cleaned  (I: back)";
+    return fmt::format("Only {}{}  (I: back)", object.name, object.clean ? ", edges cleaned" : "");
   if (view.display == DisplayMode::kHide)
-    return object.filled && object.outlined ? "Without it; outlined: filled, invented  (H: back)"
-           : object.filled                  ? "Without the object, its hole filled  (H: back)"
-           : object.outlined                ? "Without it; outlined: ground no view saw  (H: back)"
-                                            : "Without the object  (H: back)";
-  return view.heat ? "Likelihood: blue rest, red object  (M: back)" : nullptr;
+    return fmt::format("Without {}{}  (H: back)", object.name,
+                       object.filled && object.outlined ? "; outlined: filled, invented"
+                       : object.filled                  ? ", its hole filled"
+                       : object.outlined                ? "; outlined: ground no view saw"
+                                                        : "");
+  if (view.heat) return "Likelihood: blue rest, red object  (M: back)";
+  const bool some = view.display == DisplayMode::kWhole && !view.hidden.empty();
+  return some ? "Without hidden objects  (Shift+H: back)" : "";
 }
 
 }  // namespace splatcut

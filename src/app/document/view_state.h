@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <optional>
+#include <string>
+#include <vector>
 
+#include "app/document/document.h"
 #include "app/document/selection.h"
 #include "app/document/tool_id.h"
 
@@ -28,6 +31,8 @@ struct ViewState {
   bool by_centre = false;                       // hand tools go by centres, not by footprints, see TakenBy
   float depth_limit = 0;                        // reach behind the surface over the scene's size; 0: no limit
   DisplayMode display = DisplayMode::kWhole;
+  // Objects that the scene is shown without, whichever is chosen. Alone they show; exports have them.
+  std::vector<ObjectId> hidden = {};
   bool clean_edges = true;  // an object shown alone, or exported, has clean edges
   bool fill_hole =
       false;            // what the object hid is continued where it is not shown, and in exports of the rest
@@ -66,6 +71,10 @@ inline void show(DisplayMode mode, ViewState* view) {
 
 // The view after a key that switches to a display, or from it back to the whole scene.
 ViewState turned_over(ViewState view, DisplayMode mode);
+// The scene without the chosen object, or back: then it is not hidden by its eye either.
+ViewState turned_hide(ViewState view, ObjectId chosen);
+// An object by the eye in its row: hidden, or shown however it was hidden.
+ViewState turned_eye(ViewState view, ObjectId object, ObjectId chosen);
 // Side by side with the scene; where the object is shown alone already, beside itself as its rows are.
 ViewState turned_side_by_side(ViewState view);
 // The object alone by how many views saw it, or back.
@@ -75,13 +84,25 @@ ViewState turned_fill_hole(ViewState view);
 
 // What is known of the object that a pane shows.
 struct ShownObject {
+  std::string name;
   bool clean = false;                  // drawn with clean edges
   bool heat = false, looking = false;  // by how many views it was seen is known; is being looked for
   bool filled = false;                 // the hole that it leaves is filled
   bool outlined = false;               // that hole has an outline, or the ground that no view showed
 };
-// The label of a pane that shows something else than the scene as it is; null: it needs none.
-const char* label_of(const ViewState& view, const ShownObject& object);
+// The label of a pane that shows something else than the scene as it is; empty: it needs none.
+std::string label_of(const ViewState& view, const ShownObject& object);
+
+// True if the scene is shown without the object.
+inline bool hides(const ViewState& view, ObjectId object, ObjectId chosen) {
+  return std::ranges::find(view.hidden, object) != view.hidden.end() ||
+         (object == chosen && view.display == DisplayMode::kHide);
+}
+// The same of the chosen object, in the pane at the left.
+inline bool hides_chosen(const ViewState& view, ObjectId chosen) {
+  return view.display != DisplayMode::kIsolate && view.display != DisplayMode::kBeforeAfter &&
+         hides(view, chosen, chosen);
+}
 
 // True if a pane shows an object with clean edges.
 inline bool shows_clean_edges(const ViewState& view) {

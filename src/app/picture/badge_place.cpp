@@ -11,12 +11,16 @@ std::optional<glm::vec2> badge_place(std::span<const glm::vec2> border, std::spa
   const auto within = [](const glm::vec2& p, const glm::vec2& min, const glm::vec2& max) {
     return glm::all(glm::greaterThan(p, min)) && glm::all(glm::lessThan(p, max));
   };
-  const bool bar = room.bar_min != room.bar_max;
+  const auto fits = [&](const glm::vec2& p) {
+    return within(p, room.min + kMargin, room.max - kMargin) &&
+           std::ranges::none_of(room.bars, [&](const BadgeRoom::Bar& bar) {
+             return bar.min != bar.max && within(p, bar.min - kMargin, bar.max + kMargin);
+           });
+  };
   std::optional<glm::vec2> best;
   float farthest = -1;
   for (const glm::vec2& p : border) {
-    if (!within(p, room.min + kMargin, room.max - kMargin)) continue;
-    if (bar && within(p, room.bar_min - kMargin, room.bar_max + kMargin)) continue;
+    if (!fits(p)) continue;
     float distance = kFarEnough;
     for (const glm::vec2& q : apart) distance = std::min(distance, glm::distance(p, q));
     if (distance <= farthest) continue;
@@ -26,8 +30,7 @@ std::optional<glm::vec2> badge_place(std::span<const glm::vec2> border, std::spa
   constexpr float kTouches = 24;  // of two badges, 11 points in radius; a click's dot is smaller
   if (!best || farthest >= kTouches) return best;
   const auto is_free = [&](const glm::vec2& p) {
-    return within(p, room.min + kMargin, room.max - kMargin) &&
-           !(bar && within(p, room.bar_min - kMargin, room.bar_max + kMargin)) &&
+    return fits(p) &&
            std::ranges::all_of(apart, [&](const glm::vec2& q) { return glm::distance(p, q) >= kTouches; });
   };
   constexpr int kDirections = 16;

@@ -2,6 +2,7 @@
 // the picture. All in one unit, points of the screen.
 #pragma once
 
+#include <array>
 #include <glm/glm.hpp>
 #include <optional>
 #include <span>
@@ -9,8 +10,11 @@
 namespace splatcut {
 
 struct BadgeRoom {
-  glm::vec2 min{0}, max{0};          // the whole badge lies within
-  glm::vec2 bar_min{0}, bar_max{0};  // it lies beside this rectangle; none where both are equal
+  glm::vec2 min{0}, max{0};  // the whole badge lies within
+  struct Bar {
+    glm::vec2 min{0}, max{0};  // none where both are equal
+  };
+  std::array<Bar, 2> bars = {};  // it lies beside these
 };
 
 // The point of the border that is farthest from all in `apart`, the first of those that are far enough. Where

@@ -15,12 +15,14 @@ namespace {
 
 constexpr float kCheckerPoints = 12;
 
-Flags shown_in(DisplayMode mode, const Document& document, const Flags& active) {
-  if (mode == DisplayMode::kWhole && !document.deleted) return nullptr;
+// hidden: what the scene is shown without; null: nothing.
+Flags shown_in(DisplayMode mode, const Document& document, const Flags& active, const Flags& hidden) {
+  if (mode == DisplayMode::kWhole && !document.deleted && !hidden) return nullptr;
   std::vector<std::uint8_t> set(active->size(), 1);
   for (std::size_t g = 0; g < set.size(); ++g) {
     if (mode == DisplayMode::kIsolate) set[g] = (*active)[g];
     if (mode == DisplayMode::kHide) set[g] = !(*active)[g];
+    if (mode != DisplayMode::kIsolate && hidden && (*hidden)[g]) set[g] = 0;
     if (document.deleted && (*document.deleted)[g]) set[g] = 0;
   }
   return make_flags(std::move(set));
@@ -107,7 +109,7 @@ Styles styled(const StyleOrder& order, const Styles& before, LabelCache* labels)
   style.tint = order.view.tint;
   style.outline = order.view.outline;
   std::vector<std::uint8_t> owner(n, 0);
-  Flags active;
+  Flags active, hidden;
   std::uint8_t chosen = 0;  // number of the active object, whose tint lies over the others'
   bool any = false;
   for (std::size_t i = 0; i < document.objects.size(); ++i) {
@@ -117,12 +119,14 @@ Styles styled(const StyleOrder& order, const Styles& before, LabelCache* labels)
                                                       : labels->labels(document, object, n);
     const auto number = static_cast<std::uint8_t>(i + 1);
     style.owner_colour[number] = object.colour;
-    for (std::size_t g = 0; object.visible && g < n; ++g)
+    for (std::size_t g = 0; object.tinted && g < n; ++g)
       if ((*own)[g]) owner[g] = number;
-    any |= object.visible;
+    any |= object.tinted;
+    if (std::ranges::find(order.view.hidden, object.id) != order.view.hidden.end())
+      hidden = hidden ? make_flags(combined(*hidden, *own, SetOperation::kAdd)) : own;
     if (object.id != document.active) continue;
     active = own;
-    if (object.visible) chosen = number;
+    if (object.tinted) chosen = number;
   }
   for (std::size_t g = 0; chosen != 0 && g < n; ++g)
     if ((*active)[g]) owner[g] = chosen;
@@ -152,7 +156,7 @@ Styles styled(const StyleOrder& order, const Styles& before, LabelCache* labels)
   FrameStyle plain = style;
   plain.owner = nullptr;
   const auto shown = [&](std::size_t pane, DisplayMode mode) {
-    out.shown[pane] = kept_if_equal(before.shown[pane], shown_in(mode, document, active));
+    out.shown[pane] = kept_if_equal(before.shown[pane], shown_in(mode, document, active, hidden));
   };
   out.panes = two ? 2 : 1;
   out.display = order.view.display;

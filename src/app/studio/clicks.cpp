@@ -225,6 +225,11 @@ std::optional<Clicks::HoverAsk> Clicks::hover_wanted() const {
                   hit->gaussian};
 }
 
+bool Clicks::looking() const {
+  constexpr double kAtOnceSeconds = 0.4;
+  return hover_ && ws_.tasks.busy(TaskKind::kHover) && ws_.clock_s - hover_asked_s_ > kAtOnceSeconds;
+}
+
 // True from a change of the display or the background until the pointer moves: one looks at the picture. It
 // may have moved since that change before this is asked.
 bool Clicks::looks_only() {
@@ -254,6 +259,7 @@ void Clicks::refresh_hover() {
     show_hover(nullptr, false);
   if (ws_.tasks.busy(TaskKind::kHover)) return;
   hover_ = ask;
+  hover_asked_s_ = ws_.clock_s;
   if (ask->by_colour) return ask_by_colour(*ask);
   const ObjectItem* object = ws_.document().active_object();
   const ObjectItem none;

@@ -47,7 +47,9 @@ class Clicks {
   // when the size wanted and those next to it show; null: none show. Beside the dot the wheel takes them,
   // too, and what shows is what a click there would change.
   const StrokeSizes* sizes() const;
-  float sizes_opacity() const;                                   // opacity of sizes(), from 1 to 0
+  float sizes_opacity() const;  // opacity of sizes(), from 1 to 0
+  // The outline under the pointer is looked for, and longer than one takes for at once.
+  bool looking() const;
   bool sizes_fade() const { return sizes() && !on_last_dot(); }  // true: it changes with time
   // Mark under the pointer, whose click one of the other label would take away; null: none.
   bool wheel_takes_sizes() const { return on_last_dot() && known_sizes(); }
@@ -130,6 +132,7 @@ class Clicks {
   Look look_;                               // at the last update()
   glm::vec2 looked_px_{0};                  // pointer then
   std::optional<glm::vec2> looks_only_px_;  // pointer since look_ changed; none: it moved
+  double hover_asked_s_ = 0;                // clock time at which hover_ was asked
   double outlined_s_ = 0;  // clock time at which what it outlines was last shown or taken away
   Ready ready_;
   std::string declined_offer_;   // ClickMeanings::key of the offer that was declined last

@@ -18,7 +18,7 @@ Document with_fill(Document document, const OpenedScene& scene, std::uint32_t fi
   if (document.objects.size() >= kMostObjects) return document;
   const ObjectId active = document.active;
   ObjectItem& fill = add_object(&document, "Fill");
-  fill.visible = false;  // no tint and no outline
+  fill.tinted = false;  // no tint and no outline
   set_labels(&document, &fill, gaussians_of(scene, file));
   document.active = active;
   return document;

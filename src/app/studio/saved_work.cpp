@@ -120,7 +120,8 @@ void SavedWork::update(double seconds) {
   const std::uint64_t serial = ws_.history.serial();
   rested_s_ += seconds;
   if (std::exchange(waiting_serial_, serial) != serial) quiet_s_ = 0;
-  const bool shows_other = unsaved() && autosaved_view_.display != ws_.view.display;
+  const bool shows_other =
+      unsaved() && (autosaved_view_.display != ws_.view.display || autosaved_view_.hidden != ws_.view.hidden);
   const bool changed = autosaved_serial_ != serial || shows_other;
   const bool looks_elsewhere = unsaved() && autosaved_view_ != seen();
   if (!changed && !looks_elsewhere) return;
@@ -140,7 +141,7 @@ void SavedWork::update(double seconds) {
 }
 
 WorkView SavedWork::seen() const {
-  return {viewport_.camera().kept_pose(), ws_.view.display, cuts_.doubtful_sides()};
+  return {viewport_.camera().kept_pose(), ws_.view.display, ws_.view.hidden, cuts_.doubtful_sides()};
 }
 
 Image<Rgb8> SavedWork::small_picture() const {

@@ -318,6 +318,7 @@ void SceneFiles::opened(const std::shared_ptr<OpenedScene>& scene, const std::op
   if (work && work->view) {
     viewport_.camera().set_pose(work->view->pose);
     show(work->view->display, &ws_.view);
+    ws_.view.hidden = work->view->hidden;
     cuts_.take_doubtful_sides(work->view->sides);
   }
   work_.opened(work, work_path);

@@ -103,6 +103,7 @@ void Studio::scene_opened(bool same) {
   ViewState& view = ws_.view;
   show(DisplayMode::kWhole, &view);
   view.heat = false;
+  view.hidden.clear();
   view.tool = Tool::kClick;
   view.fly_speed = std::clamp(view.fly_speed, kLeastKeptSpeed, kMostKeptSpeed);
   view.operation = SetOperation::kAdd;
@@ -121,6 +122,7 @@ void Studio::follow_document() {
     ++ws_.view_serial;
   }
   if (std::exchange(followed_serial_, ws_.history.serial()) == ws_.history.serial()) return;
+  std::erase_if(ws_.view.hidden, [&](ObjectId id) { return !document().find(id); });
   constexpr float kSameDirection = 0.99999f;  // the controller keeps it normalised
   if (glm::dot(glm::normalize(document().up_world), camera().up_world()) < kSameDirection)
     camera().set_up(document().up_world);
@@ -239,7 +241,8 @@ void Studio::perform(const Cancel&) {
   const bool stopped = cancel_task() || abandon_shape();
   if (clicks_.decline_offer() || stopped || hide_cursor()) return;  // of every Esc: the manual says so
   if (viewport_.floaters_shown()) return viewport_.show_floaters(false);
-  if (ws_.view.display != DisplayMode::kWhole) return run(Action::kShowAll);
+  if (ws_.view.display != DisplayMode::kWhole)
+    return perform(SetView{turned_over(ws_.view, ws_.view.display)});
   if (ws_.view.tool != Tool::kClick) run(Action::kToolClick);
 }
 

@@ -148,12 +148,16 @@ const Studio::ActionRow* Studio::row_of(Action action) {
       {Action::kIsolate, without_gaussians,
        [](S& s) { s.apply(SetView{turned_over(s.view(), DisplayMode::kIsolate)}); }, kWaits},
       {Action::kHide, without_gaussians,
-       [](S& s) { s.apply(SetView{turned_over(s.view(), DisplayMode::kHide)}); }, kWaits},
+       [](S& s) { s.apply(SetView{turned_hide(s.view(), s.document().active)}); }, kWaits},
       {Action::kSideBySide, without_gaussians, [](S& s) { s.apply(SetView{turned_side_by_side(s.view())}); },
        kWaits},
       {Action::kCleanEdges, without_scene, [](S& s) { s.turn_over(&ViewState::clean_edges); }},
       {Action::kShowAll, without_scene,
-       [](S& s) { s.apply(SetView{turned_over(s.view(), s.view().display)}); }},
+       [](S& s) {
+         ViewState view = turned_over(s.view(), s.view().display);
+         view.hidden.clear();
+         s.apply(SetView{view});
+       }},
       {Action::kTint, without_scene, [](S& s) { s.turn_over(&ViewState::tint); }},
       {Action::kOutline, without_scene, [](S& s) { s.turn_over(&ViewState::outline); }},
       {Action::kHeat, without_cutout, [](S& s) { s.turn_over(&ViewState::heat); }},

@@ -270,10 +270,12 @@ void file_dialog(UiContext& ui) {
   chosen |= enters && !at_folder;
   const FileKind kind = kind_of(ui.state.file_purpose);
   ImGui::BeginChild("buttons", {0, 0}, false, ImGuiWindowFlags_NoScrollbar);  // Tab comes to it last
-  const bool cancelled = plain_button(ui, "Cancel", 110) || escape_pressed();
-  ImGui::SameLine(ImGui::GetWindowWidth() - 110);
+  const ImVec2 row = ImGui::GetCursorPos();
+  ImGui::SetCursorPosX(ImGui::GetWindowWidth() - 110);  // Tab comes to it before Cancel
   const std::string reason = files.name.empty() ? (files.saving ? "Type a name" : "Choose a file") : "";
   chosen |= button(ui, kind.button, kind.title, reason, reason.empty(), 110);
+  ImGui::SetCursorPos(row);
+  const bool cancelled = plain_button(ui, "Cancel", 110) || escape_pressed();
   ImGui::EndChild();
   chosen &= reason.empty();
   if (chosen || cancelled) {

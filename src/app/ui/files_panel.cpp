@@ -71,7 +71,8 @@ void placing(UiContext& ui, const SceneSource& file) {
   if (button(ui, "Fit", "Scales it on its foot to half of the picture's height", {}, !trouble.empty(),
              row.next()))
     ui.ask(PlaceScene{file.id, fitted(file, camera, up_world), "fitted"});
-  if (button(ui, "Bring here", "Stands it on what lies in the middle of the picture", {}, false, row.next()))
+  if (button(ui, "Bring here", "Stands it on what lies in the middle of the picture, where the ring is", {},
+             false, row.next()))
     ui.ask(BringHere{file.id});
   if (button(ui, "As in file", "Back to its own coordinates",
              file.place == ScenePlace{} ? "It stands there" : "", false, row.next()))

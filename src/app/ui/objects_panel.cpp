@@ -57,6 +57,7 @@ void object_menu(UiContext& ui, const ObjectItem& object) {
   }
   if (entry("New part of this object")) ui.ask(NewObject{object.id});
   if (entry("Duplicate")) ui.ask(DuplicateObject{object.id});
+  if (entry("Tint", "", object.tinted)) ui.ask(TintObject{object.id, !object.tinted});
   merge_menu(ui, object, locked);
   if (entry("Split into connected parts", first_of({locked, empty}))) ui.ask(SplitObject{object.id});
   if (entry("Separate in place", empty)) ui.ask(SeparateObject{object.id});
@@ -71,7 +72,7 @@ void object_menu(UiContext& ui, const ObjectItem& object) {
 }
 
 // An icon without a frame.
-bool flat_icon(UiContext& ui, const char* symbol, bool lit, const char* tip) {
+bool flat_icon(UiContext& ui, const char* symbol, bool lit, const std::string& tip) {
   ImGui::PushStyleColor(ImGuiCol_Button, {0, 0, 0, 0});
   ImGui::PushStyleColor(ImGuiCol_Text, lit ? ui.theme.colour.text : ui.theme.colour.muted);
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {3, 5});
@@ -124,14 +125,15 @@ void object_row(UiContext& ui, const ObjectItem& object) {
     }
   }
   ImGui::SameLine(width - kIconsWidth + 12);
-  if (flat_icon(ui, object.visible ? icon::kEye : icon::kEyeOff, object.visible,
-                object.visible ? "Tint is shown" : "Tint is hidden"))
-    ui.ask(ShowObject{object.id, !object.visible});
+  const ObjectId chosen = ui.studio.document().active;
+  const bool hidden = hides(ui.studio.view(), object.id, chosen);
+  if (flat_icon(
+          ui, fmt::format("{}###eye", hidden ? icon::kEyeOff : icon::kEye).c_str(), !hidden,
+          hidden ? "Hidden in the scene. Press to show it" : "Hide it in the scene. Exports still have it"))
+    ui.ask(SetView{turned_eye(ui.studio.view(), object.id, chosen)});
   ImGui::SameLine(0, 0);
   if (flat_icon(ui, object.locked ? icon::kLock : icon::kUnlock, object.locked,
-                object.locked
-                    ? "Locked: nothing changes it, and no other object takes what it has. Press to unlock"
-                    : "Lock it: then nothing changes it, and no other object takes what it has"))
+                tip_of_lock(ui.studio.document(), object)))
     ui.ask(LockObject{object.id, !object.locked});
   ImGui::SameLine(0, 0);
   if (flat_icon(ui, icon::kMore, true, "More")) ImGui::OpenPopup("more");
@@ -166,6 +168,19 @@ void exported_file(UiContext& ui) {
 
 }  // namespace
 
+// A part stays within its whole, locked or not.
+std::string tip_of_lock(const Document& document, const ObjectItem& object) {
+  const ObjectItem* whole = document.find(object.within);
+  const std::string but =
+      whole && !whole->locked ? fmt::format(" but a change of {}, of which it is a part", whole->name) : "";
+  return fmt::format(
+      fmt::runtime(object.locked ? "Locked: nothing changes it{}, and no other object takes what it "
+                                   "has. Press to unlock"
+                                 : "Lock it: then nothing changes it{}, and no other object takes "
+                                   "what it has"),
+      but);
+}
+
 void objects_panel(UiContext& ui) {
   if (!section(ui, "Objects")) return;
   const auto& objects = ui.studio.document().objects;
@@ -176,6 +191,8 @@ void objects_panel(UiContext& ui) {
   if (const ObjectItem* active = ui.studio.document().active_object())
     wrapped_muted(ui, ui.studio.gaussians_of(active->id) == 0 && active->views.empty()
                           ? fmt::format("{} is empty: click it in the picture.", active->name)
+                      : hides_chosen(ui.studio.view(), active->id)
+                          ? fmt::format("Clicks and strokes go to {}, which is hidden.", active->name)
                           : fmt::format("Clicks and strokes go to {}.", active->name));
   exported_file(ui);
 }

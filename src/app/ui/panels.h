@@ -11,6 +11,7 @@ void options_row(UiContext& ui);  // under the bar, what has no room there
 void turntable_button(UiContext& ui, const char* label, float width);
 void tool_column(UiContext& ui);
 void objects_panel(UiContext& ui);
+std::string tip_of_lock(const Document& document, const ObjectItem& object);
 void cutout_panel(UiContext& ui);
 // What runs for the active object, or is in doubt of it; of sides only beside their thumbnails.
 bool has_cut_notes(const Studio& studio, bool thumbnails);

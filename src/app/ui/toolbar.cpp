@@ -226,7 +226,8 @@ void look_buttons(UiContext& ui) {
 
 void display_buttons(UiContext& ui) {
   const DisplayMode mode = ui.studio.view().display;
-  action_button(ui, Action::kShowAll, "Whole", mode == DisplayMode::kWhole);
+  action_button(ui, Action::kShowAll, "Whole",
+                mode == DisplayMode::kWhole && ui.studio.view().hidden.empty());
   ImGui::SameLine(0, 2);
   action_button(ui, Action::kIsolate, "Isolate", mode == DisplayMode::kIsolate);
   ImGui::SameLine(0, 2);

@@ -141,12 +141,13 @@ struct UiState {
   bool row_below() const { return options_below || depth_below; }
   float options_height = kOptionsHeight;  // of their rows under it, as they were last
   double message_s = -1;                  // time of the message whose place was chosen
-  bool message_at_right = false;
-  UiRect message;               // where one shows; no size: none does
-  std::string message_text;     // what the last one that showed said, as far as there was room
-  std::string offer_words;      // behind the buttons of other meanings, as they were shown last
-  bool double_clicked = false;  // the last press was the second of two, by the events' own times
-  bool steady = false;          // for pictures that must repeat: no times, no version, no blinking
+  std::size_t message_place = 0;          // of the corners in which it may lie
+  std::vector<glm::vec2> badges;          // middles of the badges that this frame shows
+  UiRect message;                         // where one shows; no size: none does
+  std::string message_text;               // what the last one that showed said, as far as there was room
+  std::string offer_words;                // behind the buttons of other meanings, as they were shown last
+  bool double_clicked = false;            // the last press was the second of two, by the events' own times
+  bool steady = false;                    // for pictures that must repeat: no times, no version, no blinking
   std::vector<std::filesystem::path> recent;
   std::filesystem::path sample;  // offered on the start page where it exists
   FileBrowser files;

@@ -177,9 +177,19 @@ bool button(UiContext& ui, const char* label, const std::string& tip, const std:
   return pressed && reason.empty();
 }
 
+std::string tip_of(const Studio& studio, Action action) {
+  std::string tip = tip_of(action);
+  const ObjectItem* object = studio.document().active_object();
+  const bool acts = action == Action::kIsolate || action == Action::kHide || action == Action::kFrameObject;
+  const std::string_view the_object = "the object";
+  if (const std::size_t at = tip.find(the_object); object && acts && at != std::string::npos)
+    tip.replace(at, the_object.size(), object->name);
+  return tip;
+}
+
 void action_button(UiContext& ui, Action action, const char* label, bool on, float width) {
   ImGui::PushID(static_cast<int>(action));
-  if (button(ui, label, tip_of(action), ui.studio.why_not(action), on, width)) ui.ask(action);
+  if (button(ui, label, tip_of(ui.studio, action), ui.studio.why_not(action), on, width)) ui.ask(action);
   ImGui::PopID();
 }
 

@@ -83,7 +83,8 @@ bool section(UiContext& ui, const char* title, bool open = true);
 // The axes that the scene's file has, which are what people know: those of a .spz or .glb are not ours.
 AxisSigns axes_of_file(const Studio& studio);
 
-std::string tip_of(Action action);  // "Undo (Ctrl+Z)"
+std::string tip_of(Action action);                        // "Undo (Ctrl+Z)"
+std::string tip_of(const Studio& studio, Action action);  // the same, with the name of the object it is about
 ImVec4 colour_of(const Rgb8& c);
 
 }  // namespace splatcut

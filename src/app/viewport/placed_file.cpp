@@ -31,6 +31,22 @@ void take_place(UiContext& ui, const SceneSource& file) {
   if (!choice.grips.drag && !ImGui::IsAnyItemActive()) choice.place = ui.studio.files().place_to_be(file.id);
 }
 
+// Where "Bring here" stands the file: what the middle of the picture shows.
+void draw_middle(UiContext& ui, const UiRect& area) {
+  constexpr float kRadius = 7, kArmEnd = 13;
+  const glm::vec2 middle = 0.5f * (area.min + area.max);
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const ImVec2 at(middle.x, middle.y);
+  for (const auto& [ink, wider] :
+       {std::pair(IM_COL32(0, 0, 0, 150), 2.5f), {packed(ui.theme.colour.accent), 0.0f}}) {
+    list.AddCircle(at, kRadius, ink, 0, 1.6f + wider);
+    for (const glm::vec2& arm : {glm::vec2(1, 0), {-1, 0}, {0, 1}, {0, -1}})
+      list.AddLine({at.x + kRadius * arm.x, at.y + kRadius * arm.y},
+                   {at.x + kArmEnd * arm.x, at.y + kArmEnd * arm.y}, ink, 1.6f + wider);
+  }
+  ui.state.items.push_back({"middle", middle - kArmEnd, middle + kArmEnd});
+}
+
 }  // namespace
 
 void draw_placed_file(UiContext& ui, const UiRect& area) {
@@ -51,6 +67,7 @@ void draw_placed_file(UiContext& ui, const UiRect& area) {
               similarity_between(*file, there), camera, area);
   draw_box(there, to, camera, ui.theme);
   if (ui.studio.loading()) return choice.grips.drag.reset();
+  if (!choice.grips.drag) draw_middle(ui, area);
   const std::vector<glm::vec3> axes = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   PlacingHandles shown{.centre_world = to.move, .arrow_axes = axes, .turn_axes = axes};
   shown.turned_deg = {choice.place.turn_deg.x, choice.place.turn_deg.y, choice.place.turn_deg.z};

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "app/ui/widgets.h"
 #include "app/viewport/on_screen.h"
@@ -85,6 +86,23 @@ std::optional<ImVec2> pointed_at(const UiContext& ui, const UiRect& area) {
       ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel))
     return {};
   return mouse;
+}
+
+// An arc that runs around: the outline of what lies under the pointer is still looked for.
+void draw_looking(const UiContext& ui, const UiRect& area) {
+  const std::optional<ImVec2> pointer = pointed_at(ui, area);
+  if (!pointer || !ui.studio.clicks().looking()) return;
+  constexpr float kRadius = 6, kArc = 4.2f, kTurnsPerSecond = 0.8f;
+  const float from =
+      ui.state.steady
+          ? 0
+          : 6.2831853f * static_cast<float>(std::fmod(kTurnsPerSecond * ui.studio.clock_s(), 1.0));
+  const ImVec2 at = {pointer->x + 17, pointer->y + 15};
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.AddCircleFilled(at, kRadius + 3, kMarkShade);
+  list.PathArcTo(at, kRadius, from, from + kArc);
+  list.PathStroke(kMarkWhite, 0, 2);
+  ui.state.items.push_back({"looking", {at.x - kRadius, at.y - kRadius}, {at.x + kRadius, at.y + kRadius}});
 }
 
 // A ring with four arms, whose middle is free: what lies there stays in sight. Filled while it draws.

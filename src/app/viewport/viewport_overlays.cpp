@@ -13,8 +13,10 @@ namespace {
 
 // The active object's Gaussians, where it has some that the pane may show; null: all.
 Flags of_object(const Studio& studio) {
-  const bool any = studio.gaussians_of(studio.document().active) > 0;
-  return any && studio.view().display != DisplayMode::kHide ? studio.viewport().active_labels() : nullptr;
+  const ObjectId chosen = studio.document().active;
+  return studio.gaussians_of(chosen) > 0 && !hides_chosen(studio.view(), chosen)
+             ? studio.viewport().active_labels()
+             : nullptr;
 }
 
 // Of a unit circle, to be stretched; larger rings have more corners.

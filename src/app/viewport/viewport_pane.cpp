@@ -39,7 +39,8 @@ void banner(const UiContext& ui, const ImVec2& at, const char* symbol, const ImV
   list.AddText(nullptr, 0, {at.x + 34, at.y + 8}, packed(ui.theme.colour.text), text.c_str(), nullptr, wrap);
 }
 
-// How many of the active object's Gaussians, or of a sample of them, lie there on the screen.
+// What lies there on the screen: of the active object's Gaussians, or of a sample of them, how many, and as
+// much again for each badge and each dot of a click.
 std::size_t covers(const UiContext& ui, const UiRect& picture, const UiRect& rect) {
   const Studio& studio = ui.studio;
   if (!studio.scene()) return 0;
@@ -57,11 +58,20 @@ std::size_t covers(const UiContext& ui, const UiRect& picture, const UiRect& rec
     const ImVec2 at = place(camera.pixel_from_camera(seen));
     inside += rect.contains({at.x, at.y});
   }
+  constexpr float kBadge = 11;  // points, of its radius
+  std::vector<glm::vec2> marks = ui.state.badges;
+  for (const StrokeMark& mark : studio.viewport().marks()) {
+    const ImVec2 at = place(mark.at_px);
+    marks.emplace_back(at.x, at.y);
+  }
+  const UiRect near{rect.min - kBadge, rect.max + kBadge};
+  for (const glm::vec2& at : marks) inside += near.contains(at) ? kMost : 0;
   return inside;
 }
 
-// In the lower corner that covers less of the object as the message comes; there it stays.
-void draw_message(const UiContext& ui, const UiRect& area) {
+// In the corner that covers least as the message comes, a lower one if it covers nothing; there it stays.
+// top: where the upper ones begin, under what lies over the picture.
+void draw_message(const UiContext& ui, const UiRect& area, float top) {
   const ImVec2 pointer = ImGui::GetIO().MousePos;
   const bool whole = std::exchange(ui.state.message, {}).contains({pointer.x, pointer.y});
   const Message* shown = shown_message(ui.studio.messages(), ui.studio.clock_s());
@@ -76,12 +86,17 @@ void draw_message(const UiContext& ui, const UiRect& area) {
   const std::string text = shortened(
       message.text, [&](const std::string& said) { return banner_size(said, wrap).y <= most_height; });
   const glm::vec2 size = banner_size(text, wrap);
-  const glm::vec2 left(area.min.x + kMargin, area.max.y - size.y - kMargin),
-      right(std::max(left.x, area.max.x - size.x - kMargin), left.y);
-  if (std::exchange(ui.state.message_s, message.time_s) != message.time_s)
-    ui.state.message_at_right =
-        covers(ui, area, {right, right + size}) < covers(ui, area, {left, left + size});
-  const glm::vec2 at = ui.state.message_at_right ? right : left;
+  const float left = area.min.x + kMargin, right = std::max(left, area.max.x - size.x - kMargin),
+              low = area.max.y - size.y - kMargin, high = std::min(low, top + kMargin);
+  const std::array<glm::vec2, 4> corners = {{{left, low}, {right, low}, {left, high}, {right, high}}};
+  if (std::exchange(ui.state.message_s, message.time_s) != message.time_s) {
+    std::array<std::size_t, 4> covered;
+    std::ranges::transform(corners, covered.begin(), [&](const glm::vec2& at) {
+      return covers(ui, area, {at, at + size});
+    });
+    ui.state.message_place = static_cast<std::size_t>(std::ranges::min_element(covered) - covered.begin());
+  }
+  const glm::vec2 at = corners[ui.state.message_place];
   ui.state.message = {at, at + size};
   ui.state.message_text = text;
   banner(ui, vec(at),
@@ -96,18 +111,18 @@ void draw_message(const UiContext& ui, const UiRect& area) {
 }
 
 // Small labels of two panes.
-void pane_label(const UiContext& ui, const ImVec2& at, const char* text) {
+void pane_label(const UiContext& ui, const ImVec2& at, const std::string& text) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  const ImVec2 size = ImGui::CalcTextSize(text);
+  const ImVec2 size = ImGui::CalcTextSize(text.c_str());
   list.AddRectFilled(at, {at.x + size.x + 16, at.y + size.y + 8}, packed(ui.theme.colour.panel, 0.85f), 5);
-  list.AddText({at.x + 8, at.y + 4}, packed(ui.theme.colour.text), text);
+  list.AddText({at.x + 8, at.y + 4}, packed(ui.theme.colour.text), text.c_str());
 }
 
 // In the middle of a pane without a picture.
 void coming_label(const UiContext& ui, const UiRect& pane, const std::string& text) {
   const ImVec2 size = ImGui::CalcTextSize(text.c_str());
   const glm::vec2 at = 0.5f * (pane.min + pane.max - glm::vec2(size.x + 16, size.y + 8));
-  pane_label(ui, vec(at), text.c_str());
+  pane_label(ui, vec(at), text);
 }
 
 using OutlineWorld = std::vector<std::pair<glm::vec3, glm::vec3>>;
@@ -127,9 +142,20 @@ const OutlineWorld* ground_outline(const Studio& studio) {
   return ground && !ground->outline_world.empty() ? &ground->outline_world : nullptr;
 }
 
-const char* mode_label(const Studio& studio) {
+// Whole letters of a name that is longer than what leaves room for the rest of a label.
+std::string beginning_of(const std::string& name, std::size_t most) {
+  if (name.size() <= most) return name;
+  while (most > 0 && (static_cast<unsigned char>(name[most]) & 0xC0) == 0x80) --most;
+  return name.substr(0, most) + "...";
+}
+
+std::string mode_label(const Studio& studio) {
+  constexpr std::size_t kMostOfName = 24;
   const CleanObject* clean = studio.viewport().clean(0).get();
-  return label_of(studio.view(), {.clean = clean && clean->report.cleaned,
+  const ObjectItem* object = studio.document().active_object();
+  const std::string name = object ? object->name : "the object";
+  return label_of(studio.view(), {.name = beginning_of(name, kMostOfName),
+                                  .clean = clean && clean->report.cleaned,
                                   .heat = studio.viewport().style(0).heat != nullptr,
                                   .looking = studio.seen_views().looking(),
                                   .filled = shows_hole_filled(studio),
@@ -285,12 +311,13 @@ std::optional<UiRect> first_run_hint(UiContext& ui, const UiRect& area) {
 
 std::vector<UiRect> viewport_pane(UiContext& ui, const UiRect& area, ImTextureID gpu_picture[2]) {
   std::vector<UiRect> covered;
+  ui.state.badges.clear();
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const Studio& studio = ui.studio;
   list.AddRectFilled(vec(area.min), vec(area.max), packed(ui.theme.colour.panel_low));
   if (!studio.scene()) {
     start_page(ui, area);
-    draw_message(ui, area);
+    draw_message(ui, area, area.max.y);  // in a lower corner
     return covered;
   }
   const int panes = studio.viewport().panes();
@@ -318,7 +345,7 @@ std::vector<UiRect> viewport_pane(UiContext& ui, const UiRect& area, ImTextureID
   }
   ImGui::PushClipRect(vec(area.min), {area.min.x + pane_width, area.max.y}, true);
   const float top = area.min.y + covered_top(ui) + 12;
-  const float below_label = panes == 2 || mode_label(studio) ? 40.0f : 0.0f;
+  const float below_label = panes == 2 || !mode_label(studio).empty() ? 40.0f : 0.0f;
   const ImVec2 offers_at = {area.min.x + 12, top + below_label};
   const float offers_end = area.min.x + pane_width - 12;
   const auto offer = offer_bar(ui, offers_at, offers_end);
@@ -333,6 +360,7 @@ std::vector<UiRect> viewport_pane(UiContext& ui, const UiRect& area, ImTextureID
       {area.min + glm::vec2(pane_width * static_cast<float>(studio.viewport().drag_pane()), 0), area.max});
   draw_points(ui, area);
   draw_brush_ring(ui, area);
+  draw_looking(ui, area);
   if (!studio.cursor_px()) draw_cursor_sign(ui, area);
   ImGui::PopClipRect();
   if (panes == 2) {
@@ -343,7 +371,7 @@ std::vector<UiRect> viewport_pane(UiContext& ui, const UiRect& area, ImTextureID
     pane_label(ui, {area.min.x + pane_width + 12, top},
                clean && clean->report.cleaned ? "Object, edges cleaned" : "Object");
     pane_label(ui, {area.min.x + 12, top}, compares ? "Object as it is  (B: back)" : "Scene");
-  } else if (const char* label = mode_label(studio)) {
+  } else if (const std::string label = mode_label(studio); !label.empty()) {
     pane_label(ui, {area.min.x + 12, top}, label);
   }
   float above_axes = area.min.y + covered_top(ui);
@@ -358,7 +386,10 @@ std::vector<UiRect> viewport_pane(UiContext& ui, const UiRect& area, ImTextureID
     covered.push_back(*rect);
     if (rect->max.y > 0.5f * (area.min.y + area.max.y)) for_message.max.y = rect->min.y;
   }
-  draw_message(ui, for_message);
+  float under = top + below_label;
+  for (const UiRect& rect : covered)
+    if (rect.min.y < 0.5f * (area.min.y + area.max.y)) under = std::max(under, rect.max.y);
+  draw_message(ui, for_message, under);
   if (studio.cursor_px()) {  // no message hides what keys move
     draw_cursor_sign(ui, area);
     draw_key_cursor(ui, area);

@@ -25,6 +25,7 @@ void draw_ground_outline(const UiContext& ui, const UiRect& area,
 // The file that is chosen in the files panel: where it would stand, and handles that move it.
 void draw_placed_file(UiContext& ui, const UiRect& area);
 void draw_key_cursor(const UiContext& ui, const UiRect& area);   // that the arrows move
+void draw_looking(const UiContext& ui, const UiRect& area);      // at the pointer, while that takes long
 void draw_cursor_sign(const UiContext& ui, const UiRect& area);  // what a press would do to the selection
 inline constexpr float kAxesWidth = 98;                // that axes_gizmo() takes, its margin counted; points
 UiRect axes_gizmo(UiContext& ui, const UiRect& area);  // which takes clicks: look along an axis

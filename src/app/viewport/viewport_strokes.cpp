@@ -92,20 +92,24 @@ bool strokes_wanted(const ViewState& view) {
   return tool_of(view.tool).strokes || (view.display == DisplayMode::kWhole && !view.heat);
 }
 
-std::optional<ImVec2> label_place(const std::vector<ImVec2>& border, const std::vector<ImVec2>& apart,
-                                  const UiRect& area, const UiRect& bar) {
+// Beside the bar of meanings, and the message that is shown.
+std::optional<ImVec2> label_place(const UiContext& ui, const std::vector<ImVec2>& border,
+                                  const std::vector<ImVec2>& apart, const UiRect& area, const UiRect& bar) {
   const auto points = [](const std::vector<ImVec2>& from) {
     std::vector<glm::vec2> out;
     for (const ImVec2& p : from) out.emplace_back(p.x, p.y);
     return out;
   };
-  const auto place = badge_place(points(border), points(apart), {area.min, area.max, bar.min, bar.max});
+  const auto place =
+      badge_place(points(border), points(apart),
+                  {area.min, area.max, {{{bar.min, bar.max}, {ui.state.message.min, ui.state.message.max}}}});
   return place ? std::optional(ImVec2(place->x, place->y)) : std::nullopt;
 }
 
 void draw_badge(const UiContext& ui, ImDrawList& list, const ImVec2& at, const std::string& text,
                 float opacity = 1) {
   const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+  ui.state.badges.emplace_back(at.x, at.y);
   list.AddCircleFilled(at, 11, packed(ui.theme.colour.panel, 0.92f * opacity));
   list.AddCircle(at, 11, IM_COL32(255, 255, 255, static_cast<int>(230 * opacity)), 0, 1.5f);
   list.AddText({at.x - 0.5f * size.x, at.y - 0.5f * size.y}, packed(ui.theme.colour.text, opacity),
@@ -191,7 +195,7 @@ void draw_offer(const UiContext& ui, const UiRect& area, const UiRect& bar) {
                        3);
       list.AddPolyline(path.data(), static_cast<int>(path.size()), IM_COL32(255, 255, 255, 200),
                        ImDrawFlags_Closed, 1.3f);
-      if (!label) label = label_place(path, apart, area, bar);
+      if (!label) label = label_place(ui, path, apart, area, bar);
     }
     if (!label) continue;
     apart.push_back(*label);
@@ -223,7 +227,7 @@ void draw_sizes(const UiContext& ui, const UiRect& area, const UiRect& bar) {
       if (sign) {
         dashed(list, path, dark, 3);
         dashed(list, path, light, 1.3f);
-        if (!label) label = label_place(path, apart, area, bar);
+        if (!label) label = label_place(ui, path, apart, area, bar);
         continue;
       }
       list.AddPolyline(path.data(), static_cast<int>(path.size()), dark, ImDrawFlags_Closed, 4);

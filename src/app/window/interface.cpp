@@ -199,11 +199,30 @@ void Interface::build(const Studio& studio, double seconds, UiRenderer* renderer
     const float most_width = state_.options_below ? 600 : 310;
     const UiRect row = {view.min,
                         {std::min(view.max.x, view.min.x + most_width), view.min.y + state_.options_height}};
-    covered_.push_back(row);
-    fixed_panel("options", row, p, kOverPicture, {9, 8}, [&] {
+    fixed_panel("options", row, p, kOverPicture | ImGuiWindowFlags_NoBackground, {9, 8}, [&] {
+      ImDrawList& list = *ImGui::GetWindowDrawList();
+      list.ChannelsSplit(2);
+      list.ChannelsSetCurrent(1);
+      ImGui::BeginGroup();
       options_row(ui);
+      const ImVec2 last_min = ImGui::GetItemRectMin(), last_max = ImGui::GetItemRectMax();
+      ImGui::EndGroup();
       state_.options_height =
           std::max(kOptionsHeight, ImGui::GetCursorPosY() - ImGui::GetStyle().ItemSpacing.y + 8);
+      // Beside the options, and beside the last line of several, the picture shows and takes what is drawn.
+      constexpr float kPad = 9, kAbove = 4;
+      const float end = std::min(row.max.x, ImGui::GetItemRectMax().x + kPad),
+                  last_line = std::max(row.min.y, last_min.y - kAbove);
+      const bool several = last_min.y > ImGui::GetItemRectMin().y + ImGui::GetFrameHeight();
+      list.ChannelsSetCurrent(0);
+      for (const UiRect& part :
+           {UiRect{row.min, {end, several ? last_line : row.min.y + state_.options_height}},
+            UiRect{{row.min.x, last_line},
+                   {std::min(row.max.x, last_max.x + kPad), row.min.y + state_.options_height}}}) {
+        covered_.push_back(part);
+        list.AddRectFilled({part.min.x, part.min.y}, {part.max.x, part.max.y}, packed(p.panel));
+      }
+      list.ChannelsMerge();
     });
   }
   fixed_panel("tools", {{0, kTopHeight}, {kToolsWidth, size.y - kStatusHeight}}, p, kFixed, {8, 8},

@@ -27,7 +27,7 @@ json object_json(const Document& document, const ObjectItem& o, const WriteFlags
   json out = {{"id", o.id},
               {"name", o.name},
               {"colour", {o.colour[0], o.colour[1], o.colour[2]}},
-              {"visible", o.visible},
+              {"visible", o.tinted},
               {"locked", o.locked},
               {"within", o.within},
               {"views", views},
@@ -50,7 +50,7 @@ ObjectItem object_from(const json& j, const ReadFlags& flags) {
   o.id = j.at("id");
   o.name = j.at("name");
   for (std::size_t c = 0; c < 3; ++c) o.colour[c] = j.at("colour").at(c);
-  o.visible = j.value("visible", true);
+  o.tinted = j.value("visible", true);
   o.locked = j.value("locked", false);
   o.within = j.value("within", 0u);
   if (o.within >= o.id) throw Error("object", "\"" + o.name + "\" cannot be a part of a later one");

@@ -200,7 +200,10 @@ RestoredWork restored(const WorkFile& file, const OpenedScene& opened) {
           &out);
     if (gone.empty()) out.saved_as = work.value("saved_as", "");
     if (work.contains("view"))
-      out.view = {pose_from(work.at("view")), display_of_name(work.value("display", "")), {}};
+      out.view = {pose_from(work.at("view")),
+                  display_of_name(work.value("display", "")),
+                  work.value("hidden", std::vector<ObjectId>()),
+                  {}};
     if (out.view && gone.empty()) out.view->sides = sides_from(work.value("sides", json::array()), scene);
     if (!gone.empty())
       add_warning(
@@ -229,6 +232,7 @@ void write_work_file(const std::filesystem::path& path, const OpenedScene& opene
   if (view) {
     work["view"] = pose_json(view->pose);
     work["display"] = kDisplayNames[static_cast<std::size_t>(view->display)];
+    if (!view->hidden.empty()) work["hidden"] = view->hidden;
     if (!view->sides.empty()) work["sides"] = sides_json(view->sides, scene);
   }
   if (is_utf8(saved_as.string()) && !saved_as.empty())

@@ -39,6 +39,7 @@ struct WorkFile {
 struct WorkView {
   CameraPose pose;
   DisplayMode display = DisplayMode::kWhole;
+  std::vector<ObjectId> hidden{};  // see ViewState::hidden
   std::vector<DoubtfulSide> sides{};
   bool operator==(const WorkView&) const = default;
 };

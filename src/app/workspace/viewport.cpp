@@ -130,7 +130,7 @@ void Viewport::turn_about_object() {
 }
 
 bool Viewport::shows_all_of_object() {
-  if (!style_current() || !active_labels() || ws_.view.display == DisplayMode::kHide) return false;
+  if (!style_current() || !active_labels() || hides_chosen(ws_.view, ws_.document().active)) return false;
   const std::shared_ptr<const Frame> frame = full_picture_of(pane_camera());
   if (!frame) return false;
   if (whole_shown_.picture.lock() == frame && whole_shown_.labels == active_labels())
@@ -384,7 +384,7 @@ ToolContext Viewport::tool_context(const glm::vec2& pixel) {
 void Viewport::refresh_marks() {
   marks_.clear();
   const ObjectItem* object = ws_.scene ? ws_.document().active_object() : nullptr;
-  if (!object || ws_.view.display == DisplayMode::kHide) return;  // dots stand on its surface
+  if (!object || hides_chosen(ws_.view, object->id)) return;  // dots stand on its surface
   const auto hit = [this](const Camera& camera, const glm::vec2& pixel, const Flags& visible) {
     return hit_in(camera, pixel, visible);
   };

@@ -14,6 +14,10 @@ bool same_camera(const Camera& a, const Camera& b) {
          a.camera_from_world_translation == b.camera_from_world_translation;
 }
 
+bool same_picture(const Camera& a, const Camera& b) {
+  return same_camera(a, b) && a.most_near_plane == b.most_near_plane;
+}
+
 namespace {
 
 constexpr float kSame = 1e-5f;

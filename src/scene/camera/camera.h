@@ -3,6 +3,7 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <limits>
 #include <string>
 
 namespace splatcut {
@@ -14,6 +15,9 @@ struct Camera {
   float cx_px = 0, cy_px = 0;  // principal point
   glm::mat3 camera_from_world_rotation{1};
   glm::vec3 camera_from_world_translation{0};
+  // Scene units: what the camera looks at is no nearer. The near plane of its pictures is that or the
+  // cloud's.
+  float most_near_plane = std::numeric_limits<float>::infinity();
 
   glm::vec3 camera_from_world(const glm::vec3& point_world) const {
     return camera_from_world_rotation * point_world + camera_from_world_translation;
@@ -36,7 +40,8 @@ struct Camera {
   }
 };
 
-bool same_camera(const Camera& a, const Camera& b);  // names apart
+bool same_camera(const Camera& a, const Camera& b);   // names and near planes apart
+bool same_picture(const Camera& a, const Camera& b);  // names apart
 
 // The same up to 1e-5 of what is compared: a view that is known again after it went through a file or was
 // computed another way.

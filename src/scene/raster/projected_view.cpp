@@ -46,19 +46,23 @@ RasterOutput ProjectedView::draw(const RasterOptions& options, const Job& job) c
   return draw_kept_grid(grid_.get(), roi, options, job);
 }
 
+std::size_t KeptViews::bytes() const {
+  std::size_t bytes = 0;
+  for (const auto& view : views_) bytes += view->bytes();
+  return bytes;
+}
+
 const ProjectedView& KeptViews::view(const Camera& camera, bool coloured, const Job& job) {
   const auto found =
-      std::ranges::find_if(views_, [&](const auto& v) { return same_camera(v->camera(), camera); });
+      std::ranges::find_if(views_, [&](const auto& v) { return same_picture(v->camera(), camera); });
   if (found != views_.end() && (*found)->complete() && ((*found)->coloured() || !coloured)) {
     std::rotate(found, found + 1, views_.end());
     return *views_.back();
   }
   if (found != views_.end()) views_.erase(found);
   views_.push_back(std::make_unique<ProjectedView>(cloud_, camera, coloured, job));
-  std::size_t bytes = 0;
-  for (const auto& v : views_) bytes += v->bytes();
-  while (bytes > most_bytes_ && views_.size() > 1) {
-    bytes -= views_.front()->bytes();
+  for (std::size_t all = bytes(); all > most_bytes_ && views_.size() > 1;) {
+    all -= views_.front()->bytes();
     views_.erase(views_.begin());
   }
   return *views_.back();

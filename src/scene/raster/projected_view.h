@@ -53,6 +53,8 @@ class KeptViews {
 
   const ProjectedView& view(const Camera& camera, bool coloured, const Job& job);  // until the next call
   std::size_t size() const { return views_.size(); }
+  std::size_t bytes() const;
+  void clear() { views_.clear(); }
 
  private:
   const GaussianCloud& cloud_;

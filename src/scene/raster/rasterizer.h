@@ -12,6 +12,7 @@
 // is explicit, and sums are integers of 2^-16 pixel.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <optional>
@@ -26,6 +27,11 @@
 #include "scene/raster/splat_math.h"
 
 namespace splatcut {
+
+// What pictures of the camera leave out where their options name no near plane, scene units.
+inline float near_plane_for(const GaussianCloud& cloud, const Camera& camera) {
+  return std::min(cloud.near_plane, camera.most_near_plane);
+}
 
 // A_g and M_g summed over any number of views, in units of 2^-16 pixel.
 struct MaskedSums {
@@ -76,7 +82,7 @@ struct RasterOptions {
   bool depth = false;  // expected depth, median depth and first-hit id
   glm::vec3 background{0};
   std::optional<float>
-      near_plane;  // scene units; Gaussians with camera z below are skipped; empty: the cloud's
+      near_plane;  // scene units; Gaussians with camera z below are skipped; empty: near_plane_for()
   float low_pass_px2 = kLowPassPx2;
   std::optional<PixelRect> roi;  // draw these pixels only; outputs have the size of the rectangle
   std::span<const glm::vec3> colour_override;  // size of the cloud: replaces SH colour, >= 0

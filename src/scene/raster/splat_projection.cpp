@@ -293,8 +293,8 @@ HWY_INLINE M shown_lanes(const RasterOptions& options, std::uint32_t g, std::siz
 
 void project_batch(const GaussianCloud& cloud, std::uint32_t begin, std::uint32_t end, const Camera& camera,
                    const RasterOptions& options, const PixelRect& region, SplatBatch* batch) {
-  const Frame frame = frame_of(camera, options.near_plane.value_or(cloud.near_plane), cloud.antialiased,
-                               options.low_pass_px2, region);
+  const Frame frame = frame_of(camera, options.near_plane.value_or(near_plane_for(cloud, camera)),
+                               cloud.antialiased, options.low_pass_px2, region);
   batch->size = 0;
   for (std::uint32_t g = begin; g < end; g += static_cast<std::uint32_t>(kWidth)) {
     const std::size_t count = std::min<std::size_t>(kWidth, end - g);

@@ -108,7 +108,8 @@ void project_run(const GaussianCloud& cloud, const Camera& camera, const RasterO
   run->place.assign(static_cast<std::size_t>(grid->tiles()), 0);
   SplatBatch batch;
   static_assert(SplatBatch::kGaussians == CloudBlocks::kGaussians);
-  const BlockView view(camera, options.near_plane.value_or(cloud.near_plane), options.low_pass_px2, region);
+  const BlockView view(camera, options.near_plane.value_or(near_plane_for(cloud, camera)),
+                       options.low_pass_px2, region);
   for (std::size_t g = begin; g < end; g += SplatBatch::kGaussians) {
     if (options.blocks && !view.may_show(options.blocks->blocks()[g / CloudBlocks::kGaussians])) continue;
     const std::size_t last = std::min(end, g + SplatBatch::kGaussians);

@@ -96,7 +96,7 @@ std::vector<std::uint8_t> hidden_beside(std::span<const OwnView> views, const Ga
     const Mask near = dilated(view.inside, kFarPx + static_cast<int>(kMarginOfObject * side));
     for_each_index(object.size(), [&](std::size_t g) {
       const glm::vec3 at = view.camera.camera_from_world(object.position[g]);
-      if (at.z <= object.near_plane) return;
+      if (at.z <= near_plane_for(object, view.camera)) return;
       const glm::vec2 px = view.camera.pixel_from_camera(at) - glm::vec2(view.rect.x0, view.rect.y0);
       const glm::vec2 size(near.width(), near.height());
       if (!(px.x >= 0 && px.y >= 0 && px.x < size.x && px.y < size.y)) return;

@@ -4,14 +4,13 @@
 #include <array>
 #include <cmath>
 
+#include "scene/cloud/quantise.h"
 #include "segment/finish/filling.h"
 #include "segment/masks/mask_tools.h"
 
 namespace splatcut {
 
 namespace {
-
-constexpr float kHarmonic0 = 0.28209479f;
 
 // Of each Gaussian that is copied, its place and its colour.
 struct Copies {
@@ -51,7 +50,8 @@ Copies copies_of(const Piece& piece, const Image<glm::vec3>& difference, const G
       if (!is_set(piece.cells, to) || reaches_beyond(cloud, g, map, -piece.moved, surface)) continue;
       copies.of.push_back(g);
       copies.moved_world.push_back(map.world_of(-piece.moved));
-      copies.added_dc.push_back(glm::clamp(difference.at(to.x, to.y), -kMostAdded, kMostAdded) / kHarmonic0);
+      copies.added_dc.push_back(glm::clamp(difference.at(to.x, to.y), -kMostAdded, kMostAdded) /
+                                kShC0Rounded);
     }
   return copies;
 }

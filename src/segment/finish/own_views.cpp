@@ -157,7 +157,9 @@ std::vector<Camera> own_cameras(const GaussianCloud& cloud, std::span<const std:
   orbit.views = options.views;
   orbit.distance_sizes = options.distance_sizes;
   orbit.elevation_swing_rad = glm::radians(kSwingDeg);
-  return orbit_cameras(reference, up, object, orbit);
+  cameras = orbit_cameras(reference, up, object, orbit);
+  for (Camera& camera : cameras) camera = with_room(camera, object);
+  return cameras;
 }
 
 }  // namespace splatcut

@@ -136,8 +136,9 @@ SeenSides::SeenSides(const Drawer& scene, std::span<const std::uint8_t> labels, 
 Camera SeenSides::looking_from(const glm::vec3& direction) const {
   constexpr float kDistance = 3.2f, kFovYDeg = 40;  // radii
   const glm::vec3 level = std::abs(glm::dot(direction, up_)) > 0.99f ? front_ : up_;
-  return look_at(extent_.centre_world + kDistance * extent_.radius * glm::normalize(direction),
-                 extent_.centre_world, level, glm::radians(kFovYDeg), kWidthPx, kWidthPx);
+  return with_room(look_at(extent_.centre_world + kDistance * extent_.radius * glm::normalize(direction),
+                           extent_.centre_world, level, glm::radians(kFovYDeg), kWidthPx, kWidthPx),
+                   extent_);
 }
 
 float SeenSides::share(const glm::vec3& side, float enough, const Job& job) const {

@@ -17,7 +17,8 @@ namespace splatcut {
 namespace {
 
 constexpr float kLog2E = 1.4426950408889634f, kLn2 = 0.6931471805599453f;
-constexpr float kRidge = 1e-3f;  // of S's trace, added to all three matrices: flat splats have a volume
+constexpr float kLeastArea = 1e-38f;  // scene units squared: 2 over less is infinite
+constexpr float kRidge = 1e-3f;       // of S's trace, added to all three matrices: flat splats have a volume
 
 // log2 of a normal v > 0: v = 2^e m with m in [sqrt(1/2), sqrt(2)), ln m = 2 atanh((m - 1) / (m + 1)) by its
 // series.
@@ -63,8 +64,12 @@ SPLATCUT_WIDE_VECTORS void overlap_weights(OverlapBlock& block, float gamma_posi
   for (int i = 0; i < OverlapBlock::kPairs; ++i) {
     const float trace2 =
         block.a[0][i] + block.a[3][i] + block.a[5][i] + block.b[0][i] + block.b[3][i] + block.b[5][i];
-    // Scaled to S of unit trace: determinants of tiny scenes stay in range, and D does not change.
-    const float unit = trace2 > 0 ? 2.0f / trace2 : 1.0f;
+    // Scaled to S of unit trace: determinants of tiny scenes stay in range, and D does not change. Of two
+    // points the squared distance stands in its place: D is 250 in any unit, and 0 at one place.
+    const float dx = block.d[0][i], dy = block.d[1][i], dz = block.d[2][i];
+    const float apart2 = dx * dx + dy * dy + dz * dz;
+    const float of_points = apart2 > kLeastArea ? 1.0f / apart2 : 1.0f;
+    const float unit = trace2 > kLeastArea ? 2.0f / trace2 : of_points;
     const float axx = block.a[0][i] * unit, axy = block.a[1][i] * unit, axz = block.a[2][i] * unit;
     const float ayy = block.a[3][i] * unit, ayz = block.a[4][i] * unit, azz = block.a[5][i] * unit;
     const float bxx = block.b[0][i] * unit, bxy = block.b[1][i] * unit, bxz = block.b[2][i] * unit;

@@ -43,8 +43,7 @@ Image<std::uint16_t> colour_bins(const Image<Rgb8>& picture) {
   return bins;
 }
 
-float overlap_of_colours(const Image<Rgb8>& picture, const Mask& mask, const BoxPx& around) {
-  const Image<std::uint16_t> colour = colour_bins(picture);
+float overlap_of_colours(const Image<std::uint16_t>& colour, const Mask& mask, const BoxPx& around) {
   std::array<std::array<float, kColourBins>, 2> pixels{};
   std::array<float, 2> all{};
   for (int y = 0; y < mask.height(); ++y)

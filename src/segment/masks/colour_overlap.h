@@ -16,7 +16,8 @@ Image<std::uint16_t> colour_bins(const Image<Rgb8>& picture);
 
 // Of the pixels whose centres lie in `around`: 0 where no colour of the mask stands beside it, 1 where all do
 // in equal shares, and where one of the two has no pixel. The sum over bins of the lesser share.
-float overlap_of_colours(const Image<Rgb8>& picture, const Mask& mask, const BoxPx& around);
+// colour: bins of the pixels.
+float overlap_of_colours(const Image<std::uint16_t>& colour, const Mask& mask, const BoxPx& around);
 
 // Mean over the region's pixels of ln((p + e) / (q + e)): p and q the shares of its colour in masks a and b,
 // e 0.001. 0 where the region is empty. All of one size.

@@ -120,7 +120,7 @@ std::vector<std::vector<glm::vec2>> outlines(const Mask& mask, int least_px) {
 
 PixelRect labelled_rectangle(const GaussianCloud& cloud, const Camera& camera,
                              std::span<const std::uint8_t> labels) {
-  constexpr float kCutoffSigmas = 3.34f;  // sqrt(2 ln 255): beyond it alpha is below 1/255
+  constexpr float kVisibleSigmas = 3.34f;  // sqrt(2 ln 255): beyond it alpha is below 1/255
   const float slope_x = kFrustumSlack * 0.5f * static_cast<float>(camera.width_px) / camera.fx_px;
   const float slope_y = kFrustumSlack * 0.5f * static_cast<float>(camera.height_px) / camera.fy_px;
   // The Jacobian's norm is at most focal length / z times this.
@@ -129,11 +129,11 @@ PixelRect labelled_rectangle(const GaussianCloud& cloud, const Camera& camera,
   for (std::size_t g = 0; g < cloud.size(); ++g) {
     if (!labels[g]) continue;
     const glm::vec3 at = camera.camera_from_world(cloud.position[g]);
-    if (at.z < cloud.near_plane) continue;
+    if (at.z < near_plane_for(cloud, camera)) continue;
     const glm::vec3& scale = cloud.scale[g];
     const float sigma_px =
         std::max(camera.fx_px, camera.fy_px) / at.z * bend * std::max({scale.x, scale.y, scale.z});
-    const float radius_px = kCutoffSigmas * std::sqrt(sigma_px * sigma_px + kLowPassPx2) + 1;
+    const float radius_px = kVisibleSigmas * std::sqrt(sigma_px * sigma_px + kLowPassPx2) + 1;
     const glm::vec2 centre = camera.pixel_from_camera(at);
     low = glm::min(low, centre - radius_px);
     high = glm::max(high, centre + radius_px);

@@ -30,7 +30,7 @@ std::vector<std::uint8_t> leaves_by_colour(const PartHierarchy& parts, const Lea
   refine.band_px = static_cast<int>(std::max(inside.size_px().x, inside.size_px().y));  // all of the box
   const Mask mask = refine_mask(view.colour, view.depth, mask_of_box(inside, width_px, height_px), refine,
                                 draw_seeds({box}, width_px, height_px));
-  return parts_of_mask(parts, view_parts(parts, picture_of(view).leaf), mask);
+  return parts_of_mask(parts, view_parts(parts, view.leaf), mask);
 }
 
 const std::vector<std::uint8_t>& KnownByColour::of(const PartHierarchy& parts, const LeafView& view,
@@ -48,9 +48,10 @@ bool stands_out_more(const BoxMeanings& meanings, const LeafView& view, const Bo
   if (view.colour.empty() || std::ranges::count(by_colour, 1) == 0) return false;
   const glm::vec2 margin_px = 0.25f * box.size_px();
   const BoxPx around{box.low_px - margin_px, box.high_px + margin_px};
+  const Image<std::uint16_t> colour = view.colour_bins.empty() ? colour_bins(view.colour) : view.colour_bins;
   const auto cost = [&](std::span<const std::uint8_t> leaves) {
     return meanings.cost(leaves) +
-           kOverlap * overlap_of_colours(view.colour, shown(view.leaves, view.camera, leaves), around);
+           kOverlap * overlap_of_colours(colour, shown(view.leaves, view.camera, leaves), around);
   };
   return cost(others) - cost(by_colour) > kLeast;
 }

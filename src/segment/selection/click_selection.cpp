@@ -94,6 +94,13 @@ std::span<const Mask> ClickSelection::meanings() const {
   return offers_ ? std::span<const Mask>(offers_->masks) : std::span<const Mask>();
 }
 
+std::size_t ClickSelection::bytes() const {
+  std::size_t bytes = labels_.size() + said_.size() + by_colour_.size() + 2 * selected_.object.size();
+  for (const Mask& mask : size_masks()) bytes += mask.size();
+  for (const Mask& mask : meanings()) bytes += mask.size();
+  return bytes;
+}
+
 // Offers the likeliest meaning, then the next likely ones that look clearly different. Each is settled where
 // the trees disagree.
 void ClickSelection::note_offers(const LeafView& view, const Answers& found,
@@ -255,13 +262,12 @@ std::vector<std::uint32_t> ClickSelection::disc(const Camera& camera, const glm:
 
 std::vector<std::uint8_t> ClickSelection::mostly_in(const LeafView& view,
                                                     std::span<const std::uint32_t> pixels) const {
-  std::vector<float> inside(labels_.size(), 0), all(labels_.size(), 0);
+  std::vector<float> inside(labels_.size(), 0);
   for (const std::uint32_t pixel : pixels)
     for (const GroupWeight& w : view.gaussians.at(pixel)) inside[w.group] += w.weight;
-  for (const GroupWeight& w : view.gaussians.entry) all[w.group] += w.weight;
   std::vector<std::uint8_t> mostly(labels_.size());
   for (std::size_t g = 0; g < mostly.size(); ++g)
-    mostly[g] = inside[g] > 0 && inside[g] > model_.disc_majority * all[g];
+    mostly[g] = inside[g] > 0 && inside[g] > model_.disc_majority * view.gaussian_px[g];
   return mostly;
 }
 

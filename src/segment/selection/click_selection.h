@@ -101,6 +101,8 @@ class ClickSelection {
   std::span<const Mask> meanings() const;
   std::size_t choice() const { return choice_taken_; }  // index of the meaning that is taken
 
+  std::size_t bytes() const;  // what it takes, its masks of sizes and meanings among that
+
   // True if the last stroke changed its disc alone, because no part fitted it.
   bool spot_alone() const { return spot_alone_; }
 

@@ -8,6 +8,7 @@
 
 #include "core/parallel.h"
 #include "core/png_file.h"
+#include "segment/masks/colour_overlap.h"
 #include "segment/selection/click_reach.h"
 
 namespace splatcut {
@@ -79,7 +80,7 @@ std::vector<float> alone_px(const GaussianCloud& cloud, const Camera& camera) {
   const glm::vec3 eye = camera.centre_world();
   for_each_index(cloud.size(), [&](std::size_t g) {
     const float depth = camera.camera_from_world(cloud.position[g]).z;
-    if (!(depth > cloud.near_plane)) return;
+    if (!(depth > near_plane_for(cloud, camera))) return;
     const glm::vec3 along = glm::conjugate(cloud.rotation[g]) * glm::normalize(cloud.position[g] - eye);
     const glm::vec3 s = cloud.scale[g];
     const float shadow = glm::length(glm::vec3(s.y * s.z, s.x * s.z, s.x * s.y) * along);
@@ -98,12 +99,19 @@ LeafView leaf_view_of(const PartHierarchy& parts, const Camera& camera, ListedWe
                 .leaves = {},
                 .depth = std::move(depth),
                 .steps = {},
+                .leaf = {},
                 .colour = {},
+                .colour_bins = {},
+                .gaussian_px = std::vector<float>(parts.leaf_of.size(), 0),
                 .leaf_px = {},
                 .leaf_frame_px = {}};
+  for (const GroupWeight& w : view.gaussians.entry) view.gaussian_px[w.group] += w.weight;
   sum_by_leaf(parts, &gaussians.of);
   view.leaves = flat(gaussians.of);
   count_leaves(parts, &view);
+  view.leaf = Image<std::uint32_t>(camera.width_px, camera.height_px, kNoPart);
+  for (std::size_t i = 0; i < view.leaf.size(); ++i)
+    view.leaf.pixels()[i] = group_of_pixel(view.leaves.at(i));
   view.steps = steps_without_jump(view.depth);
   return view;
 }
@@ -112,7 +120,7 @@ std::size_t LeafView::bytes() const {
   std::size_t bytes = 0;
   const auto add = [&](const auto&... array) { bytes += (... + std::span(array).size_bytes()); };
   add(gaussians.first, gaussians.entry, leaves.first, leaves.entry, depth.pixels(), steps.pixels(),
-      colour.pixels(), alone_px, leaf_px, leaf_frame_px);
+      leaf.pixels(), colour.pixels(), colour_bins.pixels(), alone_px, gaussian_px, leaf_px, leaf_frame_px);
   return bytes;
 }
 
@@ -135,13 +143,11 @@ void draw_colour(const Drawer& drawer, LeafView* view, const Job& job, const See
   RasterOptions raster;
   if (seen) raster.shown = *seen;
   view->colour = rgb8_from_linear(drawer.draw(view->camera, raster, job).colour);
+  view->colour_bins = colour_bins(view->colour);
 }
 
 LeafPicture picture_of(const LeafView& view) {
-  LeafPicture picture{Image<std::uint32_t>(view.camera.width_px, view.camera.height_px, kNoPart), view.depth};
-  for (std::size_t i = 0; i < picture.leaf.size(); ++i)
-    picture.leaf.pixels()[i] = group_of_pixel(view.leaves.at(i));
-  return picture;
+  return {view.leaf, view.depth};
 }
 
 Image<std::uint32_t> shown_from(const LeafView& view, std::span<const std::uint32_t> level) {

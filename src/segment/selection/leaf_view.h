@@ -32,9 +32,12 @@ struct LeafView {
   PixelWeights gaussians, leaves;
   Image<float> depth;                // expected depth as camera z, scene units; 0: nothing is there
   Image<std::uint8_t> steps;         // between pixels, without a jump in depth: steps_without_jump()
+  Image<std::uint32_t> leaf;         // that each pixel shows; kNoPart: none
   Image<Rgb8> colour;                // its picture; empty: nobody needed it, see draw_colour()
+  Image<std::uint16_t> colour_bins;  // of the picture, see colour_overlap.h; empty: not counted
   bool whole = true;                 // false: some Gaussians were left out
   std::vector<float> alone_px;       // pixels that each Gaussian has if nothing occludes it; empty: not known
+  std::vector<float> gaussian_px;    // sum of each Gaussian's weights, pixels
   std::vector<float> leaf_px;        // sum of each leaf's weights, pixels
   std::vector<float> leaf_frame_px;  // sum of each leaf's weights at the picture's frame, pixels
 

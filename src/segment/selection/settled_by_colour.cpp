@@ -160,8 +160,10 @@ std::vector<std::uint8_t> settled_by_colour(const PartHierarchy& parts, const Le
   if (view.colour.empty() || meanings.empty()) return settled;
   const Votes votes = votes_of(parts, alike(parts, view, meanings, taken, others));
   if (votes.share.empty()) return settled;
-  const Image<std::uint16_t> colour = colour_bins(view.colour);
-  const Image<std::uint32_t> leaf = picture_of(view).leaf;
+  const Image<std::uint16_t> counted =
+      view.colour_bins.empty() ? colour_bins(view.colour) : Image<std::uint16_t>();
+  const Image<std::uint16_t>& colour = view.colour_bins.empty() ? counted : view.colour_bins;
+  const Image<std::uint32_t>& leaf = view.leaf;
   const std::array<float, kColourBins> ratio = colours_speak(colour, leaf, votes);
   Image<float> colour_odds(leaf.width(), leaf.height());
   std::ranges::transform(colour.pixels(), colour_odds.pixels().begin(), [&](auto bin) { return ratio[bin]; });

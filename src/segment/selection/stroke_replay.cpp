@@ -9,7 +9,7 @@ namespace splatcut {
 
 namespace {
 
-constexpr std::size_t kMostKept = 6;  // selections, for undo: 2 bytes a Gaussian each
+constexpr std::size_t kMostKept = 6;  // selections, for undo: 3 bytes a Gaussian each, and masks
 
 bool same_stroke(const CameraStroke& a, const CameraStroke& b) {
   return same_camera(a.camera, b.camera) && same_set(a.seen, b.seen) && a.stroke.kind == b.stroke.kind &&
@@ -60,11 +60,24 @@ std::size_t StrokeReplay::view_bytes() const {
   return bytes;
 }
 
+std::size_t StrokeReplay::bytes() const {
+  std::size_t bytes = view_bytes();
+  for (const auto& selection : after_) bytes += selection ? selection->bytes() : 0;
+  return bytes;
+}
+
+void StrokeReplay::forget() {
+  views_.clear();
+  done_.clear();
+  after_.clear();
+  last_.reset();
+}
+
 StrokeReplay::KnownView* StrokeReplay::view(const Drawer& drawer, const CameraStroke& said, int width_px,
                                             const Job& job) {
   const Camera camera = limited_to_width(said.camera, width_px);
   const auto known = std::ranges::find_if(views_, [&](const KnownView& v) {
-    return same_camera(v.view.camera, camera) && same_set(v.seen, said.seen);
+    return same_picture(v.view.camera, camera) && same_set(v.seen, said.seen);
   });
   if (known != views_.end()) {
     views_.splice(views_.begin(), views_, known);

@@ -55,6 +55,8 @@ class StrokeReplay {
                                const ReplayOptions& options, const Job& job = {});
 
   std::size_t view_bytes() const;  // of the views that are kept
+  std::size_t bytes() const;       // of views and selections
+  void forget();                   // all of these: the next replay begins anew
 
  private:
   struct KnownView {

@@ -1,6 +1,8 @@
 #include "segment/session/cut_request.h"
 
 #include <algorithm>
+#include <memory>
+#include <mutex>
 #include <span>
 #include <string_view>
 #include <type_traits>
@@ -10,6 +12,29 @@
 namespace splatcut {
 
 namespace {
+
+// Of a set's flags. Sets do not change while anybody holds them, and none can take the place of another that
+// is still known here: so one is hashed once, however many keys it enters.
+std::uint64_t hash_of(const SeenGaussians& seen) {
+  struct Known {
+    std::weak_ptr<const std::vector<std::uint8_t>> set;
+    std::uint64_t hash;
+  };
+  constexpr std::size_t kMostKnown = 16;
+  static std::mutex mutex;
+  static std::vector<Known> known;
+  {
+    const std::lock_guard lock(mutex);
+    for (const Known& k : known)
+      if (k.set.lock() == seen) return k.hash;
+  }
+  const std::uint64_t hash = hash_bytes(std::as_bytes(std::span(*seen)));
+  const std::lock_guard lock(mutex);
+  std::erase_if(known, [](const Known& k) { return k.set.expired(); });
+  if (known.size() == kMostKnown) known.erase(known.begin());
+  known.push_back({seen, hash});
+  return hash;
+}
 
 // Bytes in which every list says its length first, so that no two requests share them.
 class Key {
@@ -29,7 +54,7 @@ class Key {
   }
   void camera(const Camera& c) {
     for (const int v : {c.width_px, c.height_px}) number(v);
-    for (const float v : {c.fx_px, c.fy_px, c.cx_px, c.cy_px}) number(v);
+    for (const float v : {c.fx_px, c.fy_px, c.cx_px, c.cy_px, c.most_near_plane}) number(v);
     numbers({&c.camera_from_world_rotation[0][0], 9});
     numbers({&c.camera_from_world_translation.x, 3});
   }
@@ -47,7 +72,7 @@ class Key {
   }
   void seen(const SeenGaussians& seen) {
     number(seen != nullptr);
-    if (seen) number(hash_bytes(std::as_bytes(std::span(*seen))));
+    if (seen) number(hash_of(seen));
   }
   void stroked(const StrokedView& view) {
     camera(view.camera);

@@ -33,7 +33,7 @@ struct KeptNeighbourhood {
   KeptNeighbourhood(Neighbourhood made, const WholeScene& scene)
       : near(std::move(made)), session({near.cloud, near.prepared, scene.up_world, scene.capture}) {}
 
-  std::size_t bytes() const { return near.bytes() + session.stroke_bytes(); }
+  std::size_t bytes() const { return near.bytes() + session.bytes(); }
 
   Neighbourhood near;
   LocalSession session;

@@ -16,8 +16,10 @@ namespace splatcut {
 
 namespace {
 
-constexpr std::size_t kMostKept = 3;      // cuts from a reference: each takes about 20 bytes a Gaussian
 constexpr std::size_t kMostAnswers = 32;  // labels of requests and of these without their last strokes
+// Cuts from a reference, one at least for each of those answers: another smoothness asks all of them again.
+constexpr std::size_t kMostKept = kMostAnswers + 3;
+constexpr std::size_t kMostKeptBytes = std::size_t{128} << 20;
 
 // Times the views used: a correction must win against all that missed it.
 constexpr int kCorrectionWeight = 4;
@@ -48,6 +50,14 @@ std::string key_of_views(const std::vector<ViewReport>& views, bool hard_counts)
   for (const ViewReport& view : views)
     if (view.used) request.masks.push_back({view.camera, view.mask});
   return key_of(request) + (hard_counts ? 'h' : 's');
+}
+
+std::size_t bytes_of(const CutResult& result) {
+  std::size_t bytes = result.labels.size() + result.prior.size() + result.said.size();
+  for (const std::vector<Mask>* masks : {&result.size_masks, &result.meanings})
+    for (const Mask& mask : *masks) bytes += mask.size();
+  for (const ViewReport& view : result.views) bytes += view.mask.size();
+  return bytes;
 }
 
 CutSettings without_smoothness(CutSettings settings) {
@@ -196,14 +206,38 @@ LocalSession::Kept& LocalSession::from_reference(const Asked& asked, const Job& 
     so_far.labels = meant(asked.request, asked.first_settings, job);
     if (!job.cancelled()) on_snapshot(CutPhase::kParts, so_far);
   }
+  std::vector<StageTime> stages;
+  if (!graph_stands(asked.first_settings))
+    StageClock(&stages).time("graph", [&] { graph(asked.first_settings, job); });
   const CutScene scene = scene_for(asked.request, asked.first_settings, job);
   if (!job.cancelled())
     made.result =
         cut_from_reference({scene, *asked.reference, asked.request, asked.first_settings, job}, on_snapshot);
+  StageClock(&stages).book(made.result.stages);
+  made.result.stages = std::move(stages);
   if (made.result.outcome == Outcome::kCancelled) return cancelled_ = std::move(made);
   kept_.push_front(std::move(made));
   if (kept_.size() > kMostKept) kept_.pop_back();
+  while (kept_.size() > 1 && kept_bytes() > kMostKeptBytes) kept_.pop_back();
   return kept_.front();
+}
+
+std::size_t LocalSession::bytes() const {
+  std::size_t bytes = views_.bytes() + strokes_.bytes() + kept_bytes() + bytes_of(cancelled_.result);
+  for (const Answer& answer : answers_) bytes += answer.labels.size() + answer.key.size();
+  return bytes;
+}
+
+void LocalSession::forget_views() {
+  views_.clear();
+  strokes_.forget();
+}
+
+std::size_t LocalSession::kept_bytes() const {
+  std::size_t bytes = 0;
+  for (const Kept& k : kept_)
+    bytes += bytes_of(k.result) + (k.sums ? 2 * k.sums->total.size() * sizeof(k.sums->total[0]) : 0);
+  return bytes;
 }
 
 // Sums of the views that count, kept until those differ. False: cancelled.
@@ -304,7 +338,7 @@ LocalSession::Answer* LocalSession::kept_answer(const CutRequest& request, const
 // Of an answer that is kept, or else computed; empty: nothing was found, or it was cancelled. In work that is
 // opened again many are missing: those to ever more strokes are computed, and it is said how far that is.
 std::vector<std::uint8_t> LocalSession::labels_of(const CutRequest& request, const CutSettings& settings,
-                                                  const Job& job) {
+                                                  const Job& job, std::vector<StageTime>* stages) {
   std::vector<CutRequest> missing;  // the one with the most strokes first
   for (std::optional<CutRequest> next = request; next && !kept_answer(*next, settings);) {
     missing.push_back(std::move(*next));
@@ -314,7 +348,7 @@ std::vector<std::uint8_t> LocalSession::labels_of(const CutRequest& request, con
   const Job counted{job.stop, {}};
   for (std::size_t i = missing.size(); i-- > 0 && !job.cancelled();) {
     job.progress("earlier strokes", 1 - static_cast<double>(i + 1) / static_cast<double>(missing.size()));
-    cut(missing[i], settings, counted);
+    StageClock(stages).book(cut(missing[i], settings, counted).stages);
   }
   if (const Answer* known = kept_answer(request, settings)) return known->labels;
   return {};
@@ -324,14 +358,21 @@ CutResult LocalSession::cut(const CutRequest& request, const CutSettings& settin
                             const OnSnapshot& on_snapshot) {
   if (!by_strokes_and_parts(request, settings)) return solved(request, settings, job, on_snapshot);
   const std::optional<LastStroke> last = last_correction(request);
+  std::vector<StageTime> stages;  // of earlier strokes
   const std::vector<std::uint8_t> before =
-      last ? labels_of(last->before, settings, job) : std::vector<std::uint8_t>();
+      last ? labels_of(last->before, settings, job, &stages) : std::vector<std::uint8_t>();
   CutResult result = solved(request, settings, job, on_snapshot);
-  if (result.outcome != Outcome::kDone) return result;
-  for (std::size_t g = 0; g < before.size(); ++g)
-    if ((result.labels[g] != 0) != last->object) result.labels[g] = before[g];
-  obey_strokes(&result);
-  if (!kept_answer(request, settings)) answers_.push_front({key_of(request), settings, result.labels});
+  StageClock(&stages).book(result.stages);
+  result.stages = std::move(stages);
+  if (result.outcome == Outcome::kCancelled) return result;
+  if (result.outcome == Outcome::kDone) {
+    for (std::size_t g = 0; g < before.size(); ++g)
+      if ((result.labels[g] != 0) != last->object) result.labels[g] = before[g];
+    obey_strokes(&result);
+  }
+  if (!kept_answer(request, settings))
+    answers_.push_front({key_of(request), settings,
+                         result.outcome == Outcome::kDone ? result.labels : std::vector<std::uint8_t>()});
   if (answers_.size() > kMostAnswers) answers_.pop_back();
   return result;
 }
@@ -349,6 +390,16 @@ std::vector<std::uint8_t> LocalSession::meant(const CutRequest& request, const C
       .replay({*scene_.cloud, &views_}, strokes_in_order(request),
               replay_options(request, settings, scene_.prepared->model), job)
       .labels();
+}
+
+bool LocalSession::at_last_size(const CutRequest& request, const CutSettings& settings, bool larger,
+                                const Job& job) {
+  const std::vector<CameraStroke> strokes = strokes_in_order(request);
+  if (strokes.empty() || in_replay_order(strokes).back().earlier) return false;  // its sizes are another's
+  const ClickSelection& meant = strokes_.replay(
+      {*scene_.cloud, &views_}, strokes, replay_options(request, settings, scene_.prepared->model), job);
+  if (meant.sizes() == 0) return false;
+  return !job.cancelled() && meant.size() == (larger ? meant.sizes() - 1 : 0);
 }
 
 std::vector<float> LocalSession::likelihood_of(const CutRequest& request, const CutSettings& settings,

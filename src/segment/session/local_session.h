@@ -10,7 +10,7 @@
 // selection (selection/stroke_replay.h): step 2 then holds views left out and smoothness alone.
 // Where a request gives masks of several views, n in all, neither parts nor trimming have a say, and v0 and
 // the weights of neighbours are those of the settings times min(1, 3/n), but for the paper's presets. Step 1
-// is kept: what changes only step 2 costs only step 2.
+// is kept, of each stroke: what changes only step 2 costs only step 2, for each of them.
 // Step 3, where strokes alone say what is meant, by parts: a correction changes Gaussians to its own side
 // only. A Gaussian that the last stroke on the object would take from it, or one on the rest would add, keeps
 // the label that it has without this stroke. So the answer to n strokes builds on that to n - 1, which is
@@ -68,6 +68,10 @@ class LocalSession {
   std::vector<std::uint8_t> meant(const CutRequest& request, const CutSettings& settings,
                                   const Job& job = {});
 
+  // True if the last stroke takes the largest of its sizes, or the smallest: a step beyond changes nothing.
+  // False where a stroke that was made before the first one on the object is applied last.
+  bool at_last_size(const CutRequest& request, const CutSettings& settings, bool larger, const Job& job = {});
+
   // The graph with the settings' number of neighbours, built at the first cut. Cancelled: must not be used.
   const FlowGraph& graph(const CutSettings& settings, const Job& job = {});
 
@@ -77,8 +81,9 @@ class LocalSession {
     if (!job.cancelled()) ready.make_ready();
   }
 
-  // Of what is kept of strokes: their views, which grow with the pictures, and answers.
-  std::size_t stroke_bytes() const { return strokes_.view_bytes() + answers_.size() * scene_.cloud->size(); }
+  // Of all that is kept beside the scene and its solver. What forget_views() leaves: cuts and answers.
+  std::size_t bytes() const;
+  void forget_views();  // the pictures of views, and selections on them: they are drawn again when asked for
 
  private:
   struct Kept {  // a cut from the reference
@@ -88,7 +93,7 @@ class LocalSession {
     std::string sums_key;  // masks that `sums` was added up from
     std::optional<MaskedSums> sums;
   };
-  struct Answer {  // the labels of a cut, after step 3
+  struct Answer {  // the labels of a cut, after step 3; empty: nothing was found
     std::string key;
     CutSettings settings;
     std::vector<std::uint8_t> labels;
@@ -107,7 +112,9 @@ class LocalSession {
   CutResult solved(const CutRequest& request, const CutSettings& settings, const Job& job,
                    const OnSnapshot& on_snapshot);
   Answer* kept_answer(const CutRequest& request, const CutSettings& settings);
-  std::vector<std::uint8_t> labels_of(const CutRequest& request, const CutSettings& settings, const Job& job);
+  std::vector<std::uint8_t> labels_of(const CutRequest& request, const CutSettings& settings, const Job& job,
+                                      std::vector<StageTime>* stages);
+  std::size_t kept_bytes() const;
 
   LocalScene scene_;
   std::optional<FlowGraph> graph_;

@@ -92,6 +92,7 @@ class Run {
   std::vector<Image<float>> scene_depths_;  // median, of result_.views; empty where a view was not drawn
   int work_width_px_;
   int used_views_ = 0;
+  bool solved_all_ = false;  // the labels are those of all views that are used
 };
 
 void Run::solve(CutPhase phase) {
@@ -103,6 +104,7 @@ void Run::solve(CutPhase phase) {
     result_.labels = std::move(report.labels);
     keep_object(&result_);
   });
+  solved_all_ = true;
   snapshot(phase);
 }
 
@@ -117,6 +119,7 @@ void Run::use(ViewReport view, ViewPicture picture) {
   clock_.time("likelihood",
               [&] { add_masked_sums(drawer_, view.camera, view.mask, settings_.hard_counts, job_, &sums_); });
   ++used_views_;
+  solved_all_ = false;
   scene_depths_.resize(result_.views.size());
   scene_depths_.push_back(std::move(picture.median_depth));
   result_.views.push_back(std::move(view));
@@ -225,7 +228,10 @@ void Run::measure_agreement() {
 
 // Solves with all views, then once more without those that disagree, unless most do.
 void Run::settle() {
-  solve(CutPhase::kSettled);
+  if (solved_all_)
+    snapshot(CutPhase::kSettled);
+  else
+    solve(CutPhase::kSettled);
   measure_agreement();
   const auto disagrees = [&](const ViewReport& v) {
     return v.used && v.confidence < settings_.view_agreement;

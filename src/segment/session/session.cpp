@@ -39,16 +39,19 @@ Session::Session(SessionScene scene)
 Session::~Session() = default;
 Session::Session(Session&& other) noexcept = default;
 
+// Of a path on the rest those of sampled(stroke).
 const StrokeHits& Session::hits(const CameraStroke& stroke, const Job& job) {
   CameraStroke any_size = stroke;
   any_size.stroke.size_step = 0;
-  std::string key = key_of_strokes(request_of({&any_size, 1}, {}));
+  const std::string key = key_of_strokes(request_of({&any_size, 1}, {}));
   const auto known = hits_.find(key);
   if (known != hits_.end()) return known->second;
   constexpr std::size_t kMostHits = 4096;
   if (hits_.size() >= kMostHits) hits_.clear();
-  StrokeHits found = stroke_hits({*scene_.cloud, nullptr, whole_.blocks.get()}, stroke, job);
-  if (job.cancelled()) key.clear();  // it may be incomplete: asked again next time
+  if (stroke.stroke.label == SeedLabel::kRest) any_size.stroke = sampled(stroke);
+  StrokeHits found = stroke_hits({*scene_.cloud, nullptr, whole_.blocks.get()}, any_size, job);
+  if (job.cancelled())
+    return cancelled_hits_ = std::move(found);  // it may be incomplete: asked again next time
   return hits_[key] = std::move(found);
 }
 
@@ -60,6 +63,7 @@ Session::Local* Session::local(const Place& place, const CutSettings& settings, 
   });
   if (known != locals_.end()) {
     locals_.splice(locals_.begin(), locals_, known);
+    keep_within_bytes();
     return &locals_.front();
   }
   if (ends_if_large_ && gaussians_in(place) > scene_.most_ahead) {
@@ -70,12 +74,29 @@ Session::Local* Session::local(const Place& place, const CutSettings& settings, 
   if (job.cancelled()) return nullptr;
   locals_.emplace_front(std::move(made), whole_);
   StageClock(&prepared_).book(locals_.front().near.prepared->stages);
-  std::size_t bytes = locals_.front().bytes();
-  for (auto l = std::next(locals_.begin()); l != locals_.end();) {
-    bytes += l->bytes();
-    l = bytes > scene_.most_bytes ? locals_.erase(l) : std::next(l);
-  }
+  keep_within_bytes();
   return &locals_.front();
+}
+
+// Of the neighbourhoods used longest ago first the views go, which are soon drawn again, then they
+// themselves.
+void Session::keep_within_bytes() {
+  std::size_t bytes = kept_bytes();
+  for (auto l = locals_.rbegin(); bytes > scene_.most_bytes && l != std::prev(locals_.rend()); ++l) {
+    bytes -= l->bytes();
+    l->session.forget_views();
+    bytes += l->bytes();
+  }
+  while (bytes > scene_.most_bytes && locals_.size() > 1) {
+    bytes -= locals_.back().bytes();
+    locals_.pop_back();
+  }
+}
+
+std::size_t Session::kept_bytes() const {
+  std::size_t bytes = 0;
+  for (const Local& l : locals_) bytes += l.bytes();
+  return bytes;
 }
 
 // The request as the neighbourhood sees it.
@@ -91,28 +112,23 @@ CutRequest Session::in_place(const CutRequest& request, const Answered& answered
   const Box box = there->near.place.cell.box_world();
   const std::vector<StrokedView> asked = std::exchange(local.strokes, {});
   const Stroke* first = first_stroke(asked);
-  std::size_t before = 1;  // strokes that come before the next one, in replay order
+  std::size_t before = 1, carried_here = 0;  // strokes that come before the next one in replay order
   for (const StrokedView& view : asked) {
     StrokedView here{view.camera, {}, there->seen.in(there->near, view.seen)};
-    for (const Stroke& as_made : view.strokes) {
-      Stroke stroke = as_made;
-      const bool is_carried = &as_made == first ? carried > 0 : before++ < carried;
-      if (stroke.label == SeedLabel::kRest) {
-        const StrokeHits& at = hits({view.camera, stroke, view.seen}, job);
-        const auto lies_here = [&](const auto& hit) { return hit && contains(box, *hit); };
-        std::vector<glm::vec2> inside;
-        for (std::size_t i = 0; i < stroke.points_px.size(); ++i)
-          if (stroke.is_box() ? std::ranges::any_of(at, lies_here) : lies_here(at[i]))
-            inside.push_back(stroke.points_px[i]);
-        stroke.points_px = std::move(inside);
+    for (const Stroke& stroke : view.strokes) {
+      const bool is_carried = &stroke == first || before++ < carried;
+      const std::size_t made = here.strokes.size();
+      if (stroke.label != SeedLabel::kRest) {
+        if (!stroke.points_px.empty()) here.strokes.push_back(stroke);
+      } else {
+        const CameraStroke said{view.camera, stroke, view.seen};
+        for (Stroke& piece : pieces_in(box, said, hits(said, job))) here.strokes.push_back(std::move(piece));
       }
-      if (!stroke.points_px.empty())
-        here.strokes.push_back(std::move(stroke));
-      else if (is_carried && local.carried.strokes > 0)
-        --local.carried.strokes;
+      if (is_carried) carried_here += here.strokes.size() - made;
     }
     local.strokes.push_back(std::move(here));
   }
+  if (local.carried.strokes > 0) local.carried.strokes = carried_here;
   return local;
 }
 
@@ -232,6 +248,7 @@ CutResult Session::cut_anywhere(const CutRequest& request, const CutSettings& se
   result = in_scene(*there, std::move(result));
   StageClock(&prepared_).book(result.stages);
   result.stages = std::move(prepared_);
+  keep_within_bytes();
   return result;
 }
 

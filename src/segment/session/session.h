@@ -16,11 +16,13 @@
 //      are offered where the likeliest is answered, and found again in the larger cell by their labels. So
 //      are other sizes of the last stroke, each a step from the one before, in the cell in which that is
 //      answered.
-// Strokes on the rest that hit nothing of the cell change nothing: there is no object there. Cuts from pixels
-// alone (the baselines) look at the whole scene. What a request asks for among some of the Gaussians is asked
-// of a session on these (session_among.h), as other files of a scene change no answer of before.
+// Strokes on the rest that hit nothing of the cell change nothing: there is no object there. A path on the
+// rest counts as the pieces of it that hit the cell. Cuts from pixels alone (the baselines) look at the whole
+// scene. What a request asks for among some of the Gaussians is asked of a session on these
+// (session_among.h), as other files of a scene change no answer of before.
 // The result is a function of scene, request and settings alone, kept steps or not, whatever was cut before,
-// on any number of threads. The neighbourhoods used last are kept within most_bytes. One call at a time.
+// on any number of threads. The neighbourhoods used last are kept within most_bytes, with all that is known
+// of cuts in them; of those used longest ago the pictures go first. One call at a time.
 #pragma once
 
 #include <list>
@@ -52,7 +54,7 @@ struct SessionScene {
   PrepareOptions prepare{};
   std::size_t most_gaussians = 150'000;             // in the first cell
   std::size_t most_ahead = 250'000;                 // prepared for a cut of CutReach::kSmall
-  std::size_t most_bytes = std::size_t{768} << 20;  // of neighbourhoods kept; the one in use may be larger
+  std::size_t most_bytes = std::size_t{768} << 20;  // kept; the neighbourhood in use may be larger
 };
 
 // Where a cut may go. kSmall: it prepares no neighbourhood of more than SessionScene::most_ahead, and
@@ -101,6 +103,7 @@ class Session {
                                      std::span<const std::uint8_t> before = {});
 
   std::size_t neighbourhoods() const { return locals_.size(); }  // that are kept
+  std::size_t kept_bytes() const;  // of these, with all that is kept of cuts in them
 
  private:
   using Local = KeptNeighbourhood;
@@ -132,6 +135,8 @@ class Session {
                                            const Job& job);
   Answered stepped(const CutRequest& request, const CutSettings& settings, Answered answered,
                    const std::string& own_key, int step, const Box& must_hold, const Job& job);
+  bool at_last_size(const CutRequest& request, const CutSettings& settings, const Answered& answered,
+                    bool larger, const Job& job);
   Answered place_after(const CutRequest& request, const CutSettings& settings, Answered there,
                        const Box& must_hold, const Job& job);
   std::optional<Answered> place_of(const CutRequest& request, const CutSettings& settings, const Job& job);
@@ -144,6 +149,7 @@ class Session {
               const CutSettings& settings, const Job& job);
   void keep_offer(const CutRequest& request, const Answered& answered, const CutSettings& settings,
                   const Job& job, CutResult* result);
+  void keep_within_bytes();
   Local* local(const Place& place, const CutSettings& settings, const Job& job);
   CutRequest in_place(const CutRequest& request, const Answered& answered, Local* there, const Job& job);
   CutResult in_scene(const Local& there, CutResult result) const;
@@ -159,6 +165,7 @@ class Session {
   std::vector<StageTime> prepared_;            // stages of what the cut under way has prepared
   std::map<std::string, Answered> places_;     // of strokes so far, by their bytes
   std::map<std::string, StrokeHits> hits_;     // of single strokes
+  StrokeHits cancelled_hits_;                  // the last that were not finished
   std::stop_source* ends_if_large_ = nullptr;  // ends a cut of CutReach::kSmall; null: none is under way
 };
 

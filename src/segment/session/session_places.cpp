@@ -260,7 +260,8 @@ std::optional<Session::Answered> Session::place_of_strokes(const CutRequest& req
 }
 
 // Where the last stroke's own size was answered, so many steps on, each from where the one before is
-// answered: a larger place has further sizes. own_key: of the own size.
+// answered: a larger place has further sizes. Where there are none, all further steps are one. own_key: of
+// the own size.
 Session::Answered Session::stepped(const CutRequest& request, const CutSettings& settings, Answered answered,
                                    const std::string& own_key, int step, const Box& must_hold,
                                    const Job& job) {
@@ -272,12 +273,26 @@ Session::Answered Session::stepped(const CutRequest& request, const CutSettings&
       answered = known->second;
       continue;
     }
+    if (answered.size_steps.back() != 0 && at_last_size(request, settings, answered, towards > 0, job)) {
+      answered.size_steps.back() += step - at + towards;
+      break;
+    }
     answered.size_steps.back() += towards;
     answered = place_after(request, settings, answered, must_hold, job);
     if (places_.size() >= kMostPlaces) places_.clear();
     if (!job.cancelled()) places_[key] = answered;
   }
   return answered;
+}
+
+// False where the place lacks the request's last stroke.
+bool Session::at_last_size(const CutRequest& request, const CutSettings& settings, const Answered& answered,
+                           bool larger, const Job& job) {
+  Local* there = local(answered.place, settings, job);
+  if (!there) return false;
+  const CutRequest here = in_place(request, answered, there, job);
+  return strokes_in_order(here).size() == strokes_in_order(request).size() &&
+         there->session.at_last_size(here, settings, larger, job);
 }
 
 Session::Answered Session::place_after(const CutRequest& request, const CutSettings& settings,

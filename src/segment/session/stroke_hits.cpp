@@ -44,6 +44,25 @@ RasterOptions depth_of(const CameraStroke& stroke, const PixelRect& region) {
   return options;
 }
 
+// In how many steps the way between two points of a path is sampled.
+int steps_between(const Camera& camera, const glm::vec2& from, const glm::vec2& to) {
+  constexpr float kMostSteps = 16 * kWidthPx;  // what leads far out of the picture hits nothing there
+  const float steps = glm::distance(from, to) * static_cast<float>(kWidthPx) /
+                      static_cast<float>(std::max(camera.width_px, kWidthPx));
+  return std::max(1, static_cast<int>(std::ceil(std::min(kMostSteps, steps))));
+}
+
+// Each point of sampled(stroke), in order: add(point, whether it is one of the path's own).
+void for_each_sample(const CameraStroke& stroke, const auto& add) {
+  const std::vector<glm::vec2>& points = stroke.stroke.points_px;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const int steps = i > 0 ? steps_between(stroke.camera, points[i - 1], points[i]) : 1;
+    for (int s = 1; s < steps; ++s)
+      add(glm::mix(points[i - 1], points[i], static_cast<float>(s) / static_cast<float>(steps)), false);
+    add(points[i], true);
+  }
+}
+
 StrokeHits hits_of_path(const Drawer& scene, const CameraStroke& stroke, const Job& job) {
   const std::vector<glm::vec2>& points = stroke.stroke.points_px;
   const Camera camera = points.size() == 1 ? stroke.camera : limited_to_width(stroke.camera, kWidthPx);
@@ -96,6 +115,53 @@ StrokeHits hits_of_box(const Drawer& scene, const CameraStroke& stroke, const Jo
 
 StrokeHits stroke_hits(const Drawer& scene, const CameraStroke& stroke, const Job& job) {
   return stroke.stroke.is_box() ? hits_of_box(scene, stroke, job) : hits_of_path(scene, stroke, job);
+}
+
+Stroke sampled(const CameraStroke& stroke) {
+  if (stroke.stroke.is_box()) return stroke.stroke;
+  Stroke finer = stroke.stroke;
+  finer.points_px.clear();
+  for_each_sample(stroke, [&](const glm::vec2& point, bool) { finer.points_px.push_back(point); });
+  return finer;
+}
+
+Strokes pieces_in(const Box& box_world, const CameraStroke& stroke, const StrokeHits& hits) {
+  const auto lies_in = [&](const auto& hit) { return hit && contains(box_world, *hit); };
+  if (stroke.stroke.is_box() || stroke.stroke.is_click())
+    return std::ranges::any_of(hits, lies_in) ? Strokes{stroke.stroke} : Strokes{};
+  struct Sample {
+    glm::vec2 px;
+    bool own;
+    float along_px;
+  };
+  struct Piece {
+    std::size_t first, last;  // of the samples
+  };
+  const float covered_px = 2 * stroke.stroke.radius_px;  // by the ends of two pieces
+  std::vector<Sample> samples;
+  std::vector<Piece> found;
+  for_each_sample(stroke, [&](const glm::vec2& px, bool own) {
+    const std::size_t i = samples.size();
+    const float along_px = i == 0 ? 0 : samples[i - 1].along_px + glm::distance(samples[i - 1].px, px);
+    samples.push_back({px, own, along_px});
+    if (i >= hits.size() || !lies_in(hits[i])) return;
+    const bool adjoins = !found.empty() && (found.back().last + 1 == i ||
+                                            along_px - samples[found.back().last].along_px <= covered_px);
+    if (adjoins)
+      found.back().last = i;
+    else
+      found.push_back({i, i});
+  });
+  Strokes pieces;
+  for (const Piece& piece : found) {
+    pieces.push_back(stroke.stroke);
+    std::vector<glm::vec2>& points = pieces.back().points_px;
+    points.clear();
+    for (std::size_t i = piece.first; i <= piece.last; ++i)
+      if (samples[i].own || i == piece.first || i == piece.last) points.push_back(samples[i].px);
+    if (points.size() == 1) points.push_back(points.front());  // one point alone would be a click
+  }
+  return pieces;
 }
 
 }  // namespace splatcut

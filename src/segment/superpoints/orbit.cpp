@@ -108,9 +108,19 @@ bool front_facing(std::span<const Camera> given) {
   return !given.empty() && glm::length(sum) > kOneSide * static_cast<float>(given.size());
 }
 
-std::vector<Camera> cameras_around(const Camera& reference, const glm::vec3& up_world,
-                                   const ObjectExtent& object, std::span<const Camera> given,
-                                   const OrbitOptions& options) {
+Camera with_room(const Camera& camera, const ObjectExtent& object) {
+  constexpr float kShare = 0.5f;  // of what lies between: the radius holds nearly all of the object, not all
+  Camera roomy = camera;
+  const float room = glm::distance(camera.centre_world(), object.centre_world) - object.radius;
+  if (room > 0) roomy.most_near_plane = std::min(roomy.most_near_plane, kShare * room);
+  return roomy;
+}
+
+namespace {
+
+std::vector<Camera> without_room(const Camera& reference, const glm::vec3& up_world,
+                                 const ObjectExtent& object, std::span<const Camera> given,
+                                 const OrbitOptions& options) {
   const glm::vec3 up = glm::normalize(up_world);
   if (given.empty()) return orbit_cameras(reference, up, object, options);
   if (front_facing(given)) return on_spiral(reference, up, object, given, options);
@@ -120,6 +130,16 @@ std::vector<Camera> cameras_around(const Camera& reference, const glm::vec3& up_
     elevation.push_back(circle_of(camera, up, object.centre_world).elevation_rad);
   circle.elevation_rad = quantile(&elevation, 0.5);
   return on_circle(reference, circle, object, options);
+}
+
+}  // namespace
+
+std::vector<Camera> cameras_around(const Camera& reference, const glm::vec3& up_world,
+                                   const ObjectExtent& object, std::span<const Camera> given,
+                                   const OrbitOptions& options) {
+  std::vector<Camera> cameras = without_room(reference, up_world, object, given, options);
+  for (Camera& camera : cameras) camera = with_room(camera, object);
+  return cameras;
 }
 
 Camera approached(const Camera& camera, const glm::vec3& point_world, float share) {

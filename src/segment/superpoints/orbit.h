@@ -42,10 +42,14 @@ bool front_facing(std::span<const Camera> given);
 
 // orbit_cameras, or for a front-facing capture a spiral of two turns within the given positions' spread about
 // the reference; for given cameras around the object, their median elevation instead of the reference's.
-// Outward from the reference. given: of the scene's photographs, may be empty.
+// Outward from the reference, with_room(). given: of the scene's photographs, may be empty.
 std::vector<Camera> cameras_around(const Camera& reference, const glm::vec3& up_world,
                                    const ObjectExtent& object, std::span<const Camera> given,
                                    const OrbitOptions& options);
+
+// The camera with a near plane that leaves the object whole, where the cloud's would cut into it: that of a
+// scene with a sky lies farther away than a small object.
+Camera with_room(const Camera& camera, const ObjectExtent& object);
 
 // The camera nearer to the point: at `share` of its distance.
 Camera approached(const Camera& camera, const glm::vec3& point_world, float share);

@@ -22,7 +22,7 @@ namespace splatcut {
 
 namespace {
 
-constexpr std::uint32_t kFormatVersion = 6;
+constexpr std::uint32_t kFormatVersion = 7;
 constexpr std::uint64_t kMagic =
     0x50455250544c5053;  // "SPLTPREP", read backwards on a machine of the other byte order
 constexpr const char* kEnding = ".prepared";
@@ -194,7 +194,6 @@ std::uint64_t prepared_key(const GaussianCloud& cloud, std::span<const Camera> o
   Hasher hash(kFormatVersion);
   hash.number(hash_of_program());
   hash.number(cloud.size());
-  hash.number(cloud.sh_degree);
   hash.number(cloud.near_plane);  // what the observing views show
   if (cloud.antialiased) hash.number(1);
   hash.add(std::as_bytes(std::span(cloud.position)));
@@ -202,7 +201,7 @@ std::uint64_t prepared_key(const GaussianCloud& cloud, std::span<const Camera> o
   hash.add(std::as_bytes(std::span(cloud.rotation)));
   hash.add(std::as_bytes(std::span(cloud.opacity)));
   hash.add(std::as_bytes(std::span(cloud.f_dc)));
-  hash.add(std::as_bytes(std::span(cloud.sh_rest)));
+  // Not the other harmonics: what is prepared is drawn without colour.
   add_options(options, &hash);
   hash.number(observing.size());
   for (const Camera& camera : observing) add_camera(camera, &hash);

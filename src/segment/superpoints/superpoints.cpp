@@ -73,7 +73,8 @@ std::vector<KeyValue<std::uint32_t>> by_weight(std::span<const SurfaceEdge> edge
                                                const SuperpointOptions& options) {
   std::vector<KeyValue<std::uint32_t>> order(edges.size()), scratch(edges.size());
   for (std::uint32_t i = 0; i < edges.size(); ++i)
-    order[i] = {std::bit_cast<std::uint32_t>(weight_of(edges[i], options)), i};  // weights >= 0 sort as bits
+    // Weights >= 0 sort as bits. Between equal normals rounding may leave less.
+    order[i] = {std::bit_cast<std::uint32_t>(std::max(0.0f, weight_of(edges[i], options))), i};
   radix_sort<11>(std::span(order), std::span(scratch), 0, 32);
   return order;
 }

@@ -22,11 +22,11 @@ Observation observe(const Drawer& drawer, std::span<const Camera> views, const J
   Observation o{std::vector<float>(cloud.size(), 0), std::vector<glm::vec3>(cloud.size(), glm::vec3(0))};
   for (const Camera& view : views) {
     if (job.cancelled()) break;
-    const Mask everything(view.width_px, view.height_px, kMaskObject);
+    const Mask nothing(view.width_px, view.height_px);  // of the sums only the totals are read
     MaskedSums sums(cloud.size());
     RasterOptions raster;
     raster.colour = false;
-    raster.sum_mask = &everything;
+    raster.sum_mask = &nothing;
     raster.sums = &sums;
     drawer.draw(view, raster, job);
     const glm::vec3 centre = view.centre_world();

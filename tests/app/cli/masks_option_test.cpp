@@ -93,6 +93,19 @@ TEST_CASE("--masks with one mask is --mask, in the camera's own size, too") {
                   file);
 }
 
+TEST_CASE("--mask without --camera says in which camera's view it was taken, with --camera it need not") {
+  const Workplace& place = still_life().place;
+  mask_folder("first", {{0, "any.png"}});
+  const std::string cut = cut_with(std::string(kSize) + " --mask first/any.png --views 0");
+  const Result guessed = place.run(cut + " -o guessed"), named = place.run(cut + " --camera 0 -o named");
+  REQUIRE(guessed.code == 0);
+  REQUIRE(named.code == 0);
+  CHECK(guessed.err.find("first/any.png: taken as a mask of the camera view_00, the first of ") !=
+        std::string::npos);
+  CHECK(named.err.find("taken as a mask") == std::string::npos);
+  CHECK(place.text("guessed/labels.u8") == place.text("named/labels.u8"));
+}
+
 TEST_CASE("masks that cannot be used are refused, with the file and the reason, and nothing is written") {
   const Workplace& place = still_life().place;
   const std::string masks = cut_with(std::string(kSize) + " --masks bad");

@@ -65,7 +65,7 @@ TEST_CASE("history: the state before the last stroke, whatever size that has, an
   push("Smaller part", with_size(-2));
   CHECK(before() == state(4));
   Document document = history.now();
-  document.find(1)->visible = false;
+  document.find(1)->tinted = false;
   push("Hide", document);  // 8
   CHECK(before() == state(4));
   document.find(1)->smoothness = 0.5f;
@@ -147,7 +147,7 @@ TEST_CASE("history: rows of the list that are called alike say which object and 
   history.push("New object", document);
   history.push("Click: object", document = with_click(document, {10, 20}));
   history.push("Click: rest", document = with_click(document, {12, 20}));
-  document.find(document.active)->visible = false;
+  document.find(document.active)->tinted = false;
   history.push("Hide", document);
   document.find(1)->colour = {1, 2, 3};
   history.push("Colour", document);

@@ -13,7 +13,7 @@ TEST_CASE("badges: beside the bar, within the picture, far from each other") {
     const float t = 4.0f * static_cast<float>(i);
     border.insert(border.end(), {{t, 0}, {t, 400}, {0, t}, {400, t}});
   }
-  const BadgeRoom room{{0, 0}, {600, 500}, {12, 12}, {350, 54}};
+  const BadgeRoom room{{0, 0}, {600, 500}, {{{{12, 12}, {350, 54}}}}};
   std::vector<glm::vec2> apart;
   for (int badge = 0; badge < 6; ++badge) {
     const auto place = badge_place(border, apart, room);
@@ -27,6 +27,7 @@ TEST_CASE("badges: beside the bar, within the picture, far from each other") {
   }
   const std::vector<glm::vec2> under{{100, 40}, {200, 40}};
   CHECK_FALSE(badge_place(under, {}, room));
+  CHECK_FALSE(badge_place(under, {}, BadgeRoom{{0, 0}, {600, 500}, {{{}, {{12, 12}, {350, 54}}}}}));
   CHECK(badge_place(under, {}, BadgeRoom{{0, 0}, {600, 500}}));
 }
 

@@ -92,6 +92,24 @@ TEST_CASE("several scenes: a file is brought onto the surface in the middle of t
   CHECK(last_file(hands).place == stands);
 }
 
+TEST_CASE("several scenes: a ring marks where a file would be brought, and it comes to stand there") {
+  const ScratchFolder folder("several_ring");
+  Hands hands(false);
+  Studio& studio = hands.studio();
+  add(hands, small_scene(folder));
+  hands.app.frames(3);
+  const UiRect ring = hands.app.button("middle");
+  REQUIRE(ring.size().x > 0);
+  CHECK(hands.app->interface().viewport().contains(ring.min));
+  studio.apply(BringHere{last_file(hands).id});
+  REQUIRE(hands.app.settle());
+  const glm::vec2 foot = hands.seen_at(foot_world(last_file(hands), studio.document().up_world));
+  CHECK(glm::distance(foot, 0.5f * (ring.min + ring.max)) < 2);
+  hands.app.interface_state().placing.file = 0;
+  hands.app.frames(3);
+  CHECK(hands.app.button("middle").size().x == 0);
+}
+
 TEST_CASE("several scenes: F frames what is placed, and the object that was clicked since") {
   const ScratchFolder folder("several_framed");
   Hands hands(false);

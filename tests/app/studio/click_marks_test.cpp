@@ -42,6 +42,67 @@ void turn(Hands& hands, float points) {
 
 }  // namespace
 
+TEST_CASE("marks: what hands took out stays out, and what they added stays, when a click is taken away") {
+  Hands hands;
+  Studio& studio = hands.studio();
+  const glm::vec2 on_orange = hands.app.screen_of(kOnOrange);
+  hands.app.click(on_orange);
+  const auto both = labels_of_active(hands);
+  const auto region = [&](const glm::vec2& pixel, SetOperation operation) {
+    const glm::vec2 at = hands.in_viewport(hands.app.screen_of(pixel)), half(9, 9);
+    const Camera camera = studio.viewport().pane_camera();
+    studio.apply(SelectRegion{
+        camera, rectangle_region(at - half, at + half, camera.width_px, camera.height_px), operation});
+    return labels_of_active(hands);
+  };
+  const auto without = region(kOnApple, SetOperation::kRemove);
+  const auto by_hand = region(kOnMug, SetOperation::kAdd);
+  REQUIRE(count_flags(without) < count_flags(both));
+  REQUIRE(count_flags(by_hand) > count_flags(without));
+  const auto holds = [&] {
+    const auto now = labels_of_active(hands);
+    for (std::size_t g = 0; g < now.size(); ++g) {
+      REQUIRE_FALSE((both[g] && !without[g] && now[g]));
+      REQUIRE_FALSE((by_hand[g] && !without[g] && !now[g]));
+    }
+  };
+  click_again(hands, on_orange);
+  REQUIRE(strokes(hands) == 1);
+  holds();
+  hands.app.key('Z', {.ctrl = true});
+  studio.apply(RemoveStroke{0, 0, studio.document().active_object()->views[0].strokes[0].points_px[0]});
+  REQUIRE(labels_of_active(hands) != by_hand);
+  REQUIRE(strokes(hands) == 1);
+  holds();
+  studio.apply(RemoveStroke{0, 0, studio.document().active_object()->views[0].strokes[0].points_px[0]});
+  REQUIRE(studio.document().active_object()->views.empty());
+  holds();
+}
+
+TEST_CASE("marks: what hands took of another object stays when the click that shared it is taken away") {
+  Hands hands;
+  Studio& studio = hands.studio();
+  const glm::vec2 on_apple = hands.app.screen_of(kOnApple);
+  hands.app.click(hands.app.screen_of(kOnOrange));
+  REQUIRE(hands.app.settle());
+  hands.app.key('N', {.ctrl = true});
+  hands.app.click(hands.app.screen_of(kOnMug));
+  REQUIRE(hands.app.settle());
+  hands.app.click(on_apple);  // shared from here
+  const auto before = labels_of_active(hands);
+  const glm::vec2 at = hands.in_viewport(hands.app.screen_of(kOnOrange)), half(9, 9);
+  const Camera camera = studio.viewport().pane_camera();
+  studio.apply(
+      SelectRegion{camera, rectangle_region(at - half, at + half, camera.width_px, camera.height_px)});
+  const auto by_hand = labels_of_active(hands);
+  REQUIRE(count_flags(by_hand) > count_flags(before));
+  click_again(hands, on_apple);
+  REQUIRE(strokes(hands) == 1);
+  const auto now = labels_of_active(hands);
+  CHECK(now != by_hand);
+  for (std::size_t g = 0; g < now.size(); ++g) REQUIRE_FALSE((by_hand[g] && !before[g] && !now[g]));
+}
+
 TEST_CASE("marks: a click on the dot of a click takes that away, whichever it is") {
   Hands hands;
   const auto apple = labels_of_active(hands);

@@ -212,7 +212,7 @@ TEST_CASE("hands: what fills a hole is kept as an object of its own, which can b
   REQUIRE(studio.document().objects.size() == 2);
   const ObjectItem& fill = studio.document().objects[1];
   CHECK(fill.name == "Fill");
-  CHECK_FALSE(fill.visible);  // no tint over what one wants to look at
+  CHECK_FALSE(fill.tinted);  // no tint over what one wants to look at
   CHECK(studio.document().active == studio.document().objects[0].id);
   const auto kept = studio.labels(fill.id);
   CHECK(kept.size() == before + invented);

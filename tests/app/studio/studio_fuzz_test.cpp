@@ -64,7 +64,9 @@ class Fuzz {
       case 16:
         return studio_.apply(RecolourObject{object(), Rgb8{static_cast<std::uint8_t>(whole(256)), 7, 9}});
       case 17:
-        return studio_.apply(ShowObject{object(), chance(70)});
+        return chance(50)
+                   ? studio_.apply(TintObject{object(), chance(70)})
+                   : studio_.apply(SetView{turned_eye(studio_.view(), object(), studio_.document().active)});
       case 18:
         return studio_.apply(LockObject{object(), chance(25)});
       case 19:

@@ -4,7 +4,9 @@
 #include <tuple>
 
 #include "app/picture/cut_sentences.h"
+#include "app/ui/panels.h"
 #include "app/ui/theme.h"
+#include "app/ui/widgets.h"
 #include "artist.h"
 #include "hands.h"
 
@@ -27,6 +29,36 @@ TEST_CASE(
   const auto result = std::ranges::find_if(
       messages, [](const Message& m) { return m.text.find(" added and ") != std::string::npos; });
   CHECK(result != messages.end());
+}
+
+TEST_CASE("words: what is isolated, hidden or framed is named") {
+  Hands hands;
+  Studio& studio = hands.studio();
+  const ObjectId object = studio.document().active;
+  studio.apply(RenameObject{object, "pot"});
+  CHECK(tip_of(studio, Action::kIsolate) == "Isolate pot  (I)");
+  CHECK(tip_of(studio, Action::kHide) == "Hide pot  (H)");
+  CHECK(tip_of(studio, Action::kFrameObject) == "Frame pot  (F)");
+  CHECK(tip_of(studio, Action::kCleanEdges) == tip_of(Action::kCleanEdges));
+  CHECK(label_of({.display = DisplayMode::kIsolate}, {.name = "pot"}) == "Only pot  (I: back)");
+  CHECK(label_of({.display = DisplayMode::kHide}, {.name = "pot", .filled = true}) ==
+        "Without pot, its hole filled  (H: back)");
+  ViewState some_hidden;
+  some_hidden.hidden = {object};
+  CHECK(label_of(some_hidden, {}) == "Without hidden objects  (Shift+H: back)");
+  CHECK(label_of({}, {}).empty());
+}
+
+TEST_CASE("words: the lock of a part says that its whole still changes it, until that is locked, too") {
+  Document document;
+  add_object(&document, "pot");
+  add_object(&document, "rim").within = 1;
+  const auto tip = [&](ObjectId id) { return tip_of_lock(document, *document.find(id)); };
+  CHECK(tip(1).find("nothing changes it, and no other") != std::string::npos);
+  CHECK(tip(2).find("nothing changes it but a change of pot, of which it is a part, and") !=
+        std::string::npos);
+  document.find(1)->locked = true;
+  CHECK(tip(2).find("nothing changes it, and no other") != std::string::npos);
 }
 
 TEST_CASE("words: a new object takes a tool that does not click to the tool Click, and no other") {

@@ -282,6 +282,38 @@ TEST_CASE("keyboard: in the export dialog, Tab comes by every button") {
   CHECK(std::set(round.items.begin(), round.items.end()).size() == round.items.size());
 }
 
+TEST_CASE("keyboard: in the file dialog Tab comes to Save before Cancel, and Enter in the name saves") {
+  const ScratchFolder folder("tab_in_files");
+  Hands hands;
+  hands.app.key('S', kCtrl);
+  hands.app.frames(3);
+  FileBrowser& files = hands.app.interface_state().files;
+  REQUIRE(files.open);
+  const UiRect dialog = hands.app.window("###files");
+  const Round round = round_by_tab(hands, {});
+  const auto place = [&](std::string_view name) {
+    for (const ShownItem& item : hands.app.interface_state().items)
+      if (item.name == name && dialog.contains(item.min))
+        return std::ranges::find(round.corners, Corner(item.min.x, item.min.y));
+    return round.corners.end();
+  };
+  const auto pressed = place("Save"), cancelled = place("Cancel");
+  REQUIRE(pressed != round.corners.end());
+  REQUIRE(cancelled != round.corners.end());
+  CHECK(pressed + 1 == cancelled);
+  CHECK(cancelled->first < pressed->first);
+  for (int i = 0; i < 3 && files.open; ++i) hands.app.key(key::kEscape);
+  REQUIRE_FALSE(files.open);
+  hands.app.key('S', kCtrl);
+  hands.app.frames(3);
+  files.enter(folder.path());
+  hands.app.type("mine");
+  hands.app.key(key::kEnter);
+  REQUIRE(hands.app.settle());
+  CHECK_FALSE(files.open);
+  CHECK(std::filesystem::exists(folder / "mine.splatcut.json"));
+}
+
 TEST_CASE("keyboard: Tab passes over the picture of the export dialog, and comes to Export before Cancel") {
   for (const int width : {1040, 760}) {  // the picture beside the fields, or a small one among them
     CAPTURE(width);

@@ -78,7 +78,36 @@ TEST_CASE("ui: a message lies in the lower corner that covers less of the object
     REQUIRE(app.studio().gaussians_of(app.studio().document().active) > 0);
     REQUIRE_FALSE(app.studio().messages().empty());
     CAPTURE(app.studio().messages().back().text);
-    CHECK(app.interface_state().message_at_right == at_left);
+    const UiRect view = app->interface().viewport(), said = app.interface_state().message;
+    CHECK((said.min.x > view.min.x + 100) == at_left);
+    CHECK(said.min.y > 0.5f * (view.min.y + view.max.y));
+  }
+}
+
+TEST_CASE(
+    "ui: no message lies over the badge of another meaning or the dot of a click, in a small window either") {
+  for (const glm::ivec2& size : {glm::ivec2(640, 480), {1000, 700}}) {
+    CAPTURE(size.x);
+    HeadlessApp app(size.x, size.y);
+    app.interface_state().hint_wanted = false;
+    REQUIRE(cut_out_apple(app));
+    const Camera camera = app.studio().viewport().pane_camera();
+    const glm::vec2 low(0.2f * static_cast<float>(camera.width_px),
+                        static_cast<float>(camera.height_px) - 30),
+        high(0.8f * static_cast<float>(camera.width_px), low.y);
+    for (const glm::vec2& at : {low, high}) {  // dots in both lower corners
+      app.studio().apply(AddStroke{camera, click(at, SeedLabel::kRest)});
+      REQUIRE(app.settle());
+    }
+    app.wait_for_message_to_go();
+    app.studio().apply(AddBox{camera, {5, 5}, {7, 7}});  // is refused
+    app.frames(3);
+    const UiRect view = app->interface().viewport(), said = app.interface_state().message;
+    REQUIRE(said.size().x > 0);
+    std::vector<glm::vec2> marks = app.interface_state().badges;
+    for (const StrokeMark& mark : app.studio().viewport().marks()) marks.push_back(view.min + mark.at_px);
+    REQUIRE(app.studio().viewport().marks().size() >= 2);
+    for (const glm::vec2& at : marks) CHECK_FALSE(said.contains(at));
   }
 }
 

@@ -7,6 +7,8 @@
 #include <bit>
 #include <cmath>
 
+#include "segment/finish/own_views.h"
+#include "segment/finish/shown_part.h"
 #include "thing_of_still_life.h"
 
 using namespace splatcut;
@@ -127,4 +129,28 @@ TEST_CASE("seen from: Gaussians in one place are an object as large as they are"
   const SeenFrom seen = seen_from(cloud, two, {0, -1, 0}, {1, 2, 0}, {}, {});
   CHECK(seen.by_views.size() == 2);
   for (const float share : seen.side_share) CHECK(std::isfinite(share));
+}
+
+TEST_CASE("seen from: what is small beside its scene's near plane is seen as with a nearer one, and whole") {
+  StillLifeOptions options;
+  options.gaussians = 20000;
+  const Thing apple(options, "apple");
+  const std::vector<std::uint8_t>& labels = apple.test.truth_labels;
+  const ObjectExtent extent = object_extent(apple.scene.cloud, labels);
+  const glm::vec3 from = apple.scene.cameras[0].centre_world(), up(0, -1, 0);
+  GaussianCloud near = apple.scene.cloud, far = near;
+  near.near_plane = 1.2f * extent.radius;
+  far.near_plane = 5 * extent.radius;  // as a sky makes it: farther than the views of a side stand
+  const SeenFrom seen = seen_from(far, labels, up, from, {}, {});
+  CHECK(seen.side_share[0] > 0.95f);
+  CHECK(seen.side_share == seen_from(near, labels, up, from, {}, {}).side_share);
+  const GaussianCloud alone = permuted(far, labelled_rows(labels));
+  for (const Camera& camera : own_cameras(far, labels, up, {}, {}))
+    CHECK(own_view(far, alone, labels, camera, {}).shown_px > 1000);
+  for (const Camera& camera : cameras_around(apple.scene.cameras[0], up, extent, {}, {})) {
+    CHECK(near_plane_for(far, camera) < 2 * extent.radius);
+    GaussianCloud with_room = far;
+    with_room.near_plane = 0.5f * extent.radius;
+    CHECK(near_plane_for(with_room, camera) == with_room.near_plane);  // as it was
+  }
 }

@@ -53,6 +53,23 @@ TEST_CASE("overlap: every part of psi can be left out, and what is left is its f
         doctest::Approx(std::exp(-0.5 * 4 - 0.2 * 4 / 1.003)).epsilon(1e-4));
 }
 
+TEST_CASE("overlap: Gaussians without size hold together alike in any unit, and wholly at one place") {
+  EnergyOptions options;
+  options.gamma_colour = 0;
+  options.gamma_position = 0.01f;
+  for (const float unit : {1e-6f, 1e-3f, 1.0f, 1e3f, 1e6f}) {
+    CAPTURE(unit);
+    GaussianCloud cloud = three_on_a_line();
+    cloud.scale.assign(3, glm::vec3(0));
+    for (glm::vec3& position : cloud.position) position *= unit;
+    const FlowGraph graph = knn_graph(cloud, {1});
+    // S is the ridge alone, a thousandth of the squared distance: D = 1/4 of 1000.
+    CHECK(psi(cloud, graph, options, 1, 2) == doctest::Approx(std::exp(-0.01 * 250)).epsilon(1e-4));
+    cloud.position[1] = cloud.position[2];
+    CHECK(psi(cloud, graph, options, 1, 2) == doctest::Approx(1).epsilon(kRounded));
+  }
+}
+
 TEST_CASE("paper-code: plain distances, half and half, mutual neighbours twice") {
   const GaussianCloud cloud = three_on_a_line();
   const FlowGraph graph = knn_graph(cloud, {1});  // 0 and 1 choose each other, 2 chooses 1

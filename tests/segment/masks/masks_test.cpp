@@ -71,7 +71,7 @@ TEST_CASE("overlap of colours: the lesser shares, by hand") {
         picture.at(x, y) = columns[static_cast<std::size_t>(x)];
         mask.at(x, y) = x < 4 ? kMaskObject : 0;
       }
-    return overlap_of_colours(picture, mask, {{0, 0}, {right_px, 4}});
+    return overlap_of_colours(colour_bins(picture), mask, {{0, 0}, {right_px, 4}});
   };
   CHECK(overlap(blue, grey, 8) == 0);
   CHECK(overlap(grey, grey, 8) == doctest::Approx(0.5));  // half of the mask is grey, all beside it is

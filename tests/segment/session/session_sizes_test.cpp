@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <ctime>
 
 #include "app/measure/robot_user.h"
 #include "segment/masks/mask_tools.h"
@@ -164,4 +165,32 @@ TEST_CASE("session: a cut of small reach is the same, or ends where it would pre
   // What is prepared already costs nothing, however large.
   CHECK(session.cut(request, settings, {}, {}, CutReach::kSmall).labels == far.labels);
   CHECK(all.cut(request, settings, {}, {}, CutReach::kSmall).outcome == Outcome::kDone);
+}
+
+TEST_CASE("session: steps beyond the last size cost nothing, and change nothing") {
+  auto [request, settings] = click_on("mug");
+  settings.parts_only = true;
+  Session session = fresh_session();
+  const glm::vec2 pixel = request.strokes.front().strokes.front().points_px.front();
+  request.strokes.push_back(
+      {request.strokes.front().camera, {click(pixel + glm::vec2(25, 15), SeedLabel::kRest)}});
+  const CutResult own = session.cut(request, settings);
+  REQUIRE(own.sizes > 1);
+  int& step = last_stroke(&request.strokes)->size_step;
+  const auto cpu_s = [&](int steps, CutResult* result) {
+    step = steps;
+    const std::clock_t start = std::clock();
+    *result = session.cut(request, settings);
+    return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+  };
+  CutResult last, beyond;
+  const double to_last = cpu_s(-std::max(1, static_cast<int>(own.likeliest_size)), &last),
+               to_beyond = cpu_s(-kMostSizeSteps, &beyond);
+  MESSAGE(own.sizes, " sizes: ", to_last, " s to the smallest, ", to_beyond, " s beyond");
+  CHECK(last.size == 0);
+  CHECK(beyond.size == 0);
+  CHECK(beyond.labels == last.labels);
+  CHECK(to_beyond < 0.3 + to_last);
+  step = -kMostSizeSteps;
+  CHECK(fresh_session().cut(request, settings).labels == last.labels);
 }

@@ -10,6 +10,7 @@
 #include "scene/cloud/morton.h"
 #include "scene/still_life/still_life.h"
 #include "segment/session/session.h"
+#include "segment/superpoints/orbit.h"
 #include "synthetic_cloud.h"
 
 using namespace splatcut;
@@ -154,4 +155,37 @@ TEST_CASE("session: the same labels whatever was cut before, however little is k
     CHECK(forgets.cut(request, preset("default")).labels == expected);
     CHECK(forgets.neighbourhoods() == 1);
   }
+}
+
+TEST_CASE("session: what is kept of known places is counted whole, and trimmed where they grow") {
+  StillLifeOptions options;
+  options.gaussians = 15000;
+  const LabelledScene scene = make_still_life(options);
+  const auto cloud = std::make_shared<const GaussianCloud>(scene.cloud);
+  const auto& seed = scene.seeds.front();
+  const auto request_from = [&](const Camera& camera, int strokes) {
+    CutRequest request;
+    request.strokes = {{camera, {click(seed.pixel, SeedLabel::kObject)}}};
+    for (int i = 1; i < strokes; ++i)
+      request.strokes.front().strokes.push_back(
+          click(seed.pixel + static_cast<float>(4 * i) * glm::vec2(1, 0), SeedLabel::kObject));
+    return request;
+  };
+  const Camera& camera = scene.cameras[static_cast<std::size_t>(seed.camera)];
+  const Camera nearer = approached(camera, camera.world_from_pixel(seed.pixel, 1), 0.7f);
+  Session session({.cloud = cloud});
+  session.cut(request_from(camera, 1), preset("default"));
+  session.cut(request_from(nearer, 1), preset("default"));
+  REQUIRE(session.neighbourhoods() == 2);
+  const std::size_t two = session.kept_bytes();
+  Session bounded({.cloud = cloud, .most_bytes = two});
+  std::vector<std::uint8_t> expected;
+  for (int strokes = 1; strokes < 6; ++strokes)
+    for (const Camera& from : {camera, nearer}) {  // no place is new after the first two
+      bounded.cut(request_from(from, strokes), preset("default"));
+      if (bounded.neighbourhoods() > 1) CHECK(bounded.kept_bytes() <= two);
+      expected = session.cut(request_from(from, strokes), preset("default")).labels;
+      CHECK(bounded.cut(request_from(from, strokes), preset("default")).labels == expected);
+    }
+  CHECK(session.kept_bytes() > two);  // as it grows where it may
 }

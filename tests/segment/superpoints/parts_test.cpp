@@ -15,6 +15,7 @@
 #include "segment/session/session.h"
 #include "segment/superpoints/part_view.h"
 #include "segment/superpoints/prepared_scene.h"
+#include "segment/superpoints/superpoints.h"
 #include "still_life_table.h"
 #include "synthetic_cloud.h"
 
@@ -83,6 +84,20 @@ TEST_CASE("parts: leaves keep to one colour, the two squares are two parts of th
   }
   CHECK(found_left);
   CHECK(found_right);
+}
+
+TEST_CASE("parts: what is least unlike joins first, also where rounding leaves less than nothing") {
+  SurfaceFeatures three;
+  three.core = {0, 1, 2};
+  SurfaceEdge copies{0, 1}, others{1, 2};
+  copies.normal = -1.2e-7f;  // 1 - n.n of a unit vector as floats have it
+  others.colour = 0.01f;
+  SuperpointOptions pairs;
+  pairs.cap = 2;
+  pairs.least = 1;
+  const Superpoints found = superpoints(three, std::vector{copies, others}, pairs);
+  CHECK(found.of[0] == found.of[1]);
+  CHECK(found.of[1] != found.of[2]);
 }
 
 TEST_CASE("parts: children come first, areas add up, one root per connected piece, in every tree") {
