@@ -150,7 +150,7 @@ TEST_CASE("cells: what one click has given stays where the next one needs a larg
   }
   MESSAGE(looked_at, " pairs: ", lost, " of the first lost, ", more, " more");
   REQUIRE(looked_at > 5);
-  CHECK(lost < 0.025 * looked_at);  // .034 where the first click was asked again, and .26 more
+  CHECK(lost < 0.03 * looked_at);  // .034 where the first click was always asked again, and .26 more
   CHECK(more < 0.12 * looked_at);
 }
 
