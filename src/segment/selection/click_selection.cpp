@@ -366,6 +366,16 @@ void ClickSelection::label() {
   }
 }
 
+void ClickSelection::carry(std::span<const std::uint8_t> labels) {
+  std::vector<std::int32_t> balance(parts_.leaves, 0);  // Gaussians of the object less those of the rest
+  for (std::size_t g = 0; g < labels.size(); ++g)
+    if (parts_.leaf_of[g] != kNoPart) balance[parts_.leaf_of[g]] += labels[g] ? 1 : -1;
+  for (std::uint32_t l = 0; l < parts_.leaves; ++l) selected_.object[l] = balance[l] > 0;
+  for (std::size_t g = 0; g < labels.size(); ++g)
+    if (by_colour_[g] && labels[g]) by_colour_[g] = said_[g] = 0;
+  label();
+}
+
 bool ClickSelection::apply(const LeafView& view, const Stroke& stroke, const FirstStroke& first) {
   const bool object = stroke.label == SeedLabel::kObject;
   if (!any_ && !object) return false;

@@ -178,6 +178,11 @@ const ClickSelection& StrokeReplay::replay(const Drawer& drawer, std::span<const
   for (std::size_t i = same; i < order.size(); ++i) {
     auto next = after(drawer, *last_, order[i], job);
     if (!next) break;  // cancelled
+    if (i + 1 == options.carried.strokes) {
+      auto carried = std::make_shared<ClickSelection>(*next);
+      carried->carry(*options.carried.labels);
+      next = std::move(carried);
+    }
     last_ = next;
     done_.push_back(order[i]);
     after_.push_back(std::move(next));

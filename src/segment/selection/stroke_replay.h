@@ -5,7 +5,7 @@
 // are rasterised no wider than asked for, or wider if the object is small in them, or if a correction's view
 // crops it: then more than the view is looked at (wide_view.h). The replay keeps
 // selections of the last replay, so that one more stroke costs one stroke. The result depends on the strokes
-// alone.
+// and carried labels alone.
 #pragma once
 
 #include <list>
@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "segment/selection/box_by_colour.h"
+#include "segment/selection/carried_labels.h"
 #include "segment/selection/click_selection.h"
 #include "segment/superpoints/usual_picture.h"
 
@@ -31,6 +32,7 @@ struct ReplayOptions {
   int choice = 0;            // number of the meaning of the first click, see ClickSelection
   int work_width_px = 320;   // greatest width of rasterised views, but see least_object_px
   int least_object_px = 48;  // least square root of the object's pixels: a view that shows fewer gets wider
+  CarriedLabels carried{};
   bool operator==(const ReplayOptions&) const = default;
 };
 

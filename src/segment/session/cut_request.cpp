@@ -97,9 +97,17 @@ void add_given(const CutRequest& request, Key* key) {
   key->number(request.up_world.has_value());
   if (request.up_world) key->numbers({&request.up_world->x, 3});
   key->seen(request.among);
+  key->number(std::uint64_t{request.carried.strokes});
+  key->seen(request.carried.labels);
 }
 
 }  // namespace
+
+std::size_t stroke_count(const CutRequest& request) {
+  std::size_t count = 0;
+  for (const StrokedView& view : request.strokes) count += view.strokes.size();
+  return count;
+}
 
 std::vector<StrokedView> strokes_by_view(const std::vector<StrokedView>& strokes) {
   std::vector<StrokedView> views;

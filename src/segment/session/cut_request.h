@@ -3,6 +3,7 @@
 // The same request, settings and session give the same labels, bit for bit.
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <glm/glm.hpp>
 #include <optional>
@@ -13,6 +14,7 @@
 #include "core/image.h"
 #include "scene/camera/camera.h"
 #include "segment/masks/seeds.h"
+#include "segment/selection/carried_labels.h"
 
 namespace splatcut {
 
@@ -44,7 +46,10 @@ struct CutRequest {
   int choice = 0;                       // of what the first click can mean, 0 the likeliest
   std::optional<glm::vec3> up_world;    // where the user says which way is up; the session's otherwise
   SeenGaussians among{};                // the scene is cut as if it had these alone; null: all
+  CarriedLabels carried{};              // Session's own, between its places; what it is asked for has none
 };
+
+std::size_t stroke_count(const CutRequest& request);
 
 // The strokes by view, as they are told apart by same_view(): each view once, in order of its first stroke.
 std::vector<StrokedView> strokes_by_view(const std::vector<StrokedView>& strokes);

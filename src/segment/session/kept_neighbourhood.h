@@ -44,6 +44,9 @@ inline bool by_parts(const CutSettings& settings) {
   return settings.first_mask_from == FirstMaskFrom::kParts;
 }
 
+// Labels of the neighbourhood's Gaussians. object_rows: of the scene, ascending.
+SeenGaussians labels_in(const Neighbourhood& near, const std::vector<std::uint32_t>& object_rows);
+
 // These strokes alone, asked for as `like` asks.
 CutRequest request_of(std::span<const CameraStroke> strokes, const CutRequest& like);
 // The first stroke on the object alone, its likeliest meaning in its own size.

@@ -91,8 +91,9 @@ struct LastStroke {
   bool object;
 };
 
-// The stroke that is applied last; none: it is the first.
+// The stroke that is applied last; none: it is the first, or carried labels hold it.
 std::optional<LastStroke> last_correction(const CutRequest& request) {
+  if (stroke_count(request) <= request.carried.strokes) return std::nullopt;
   const Stroke* first = first_stroke(request.strokes);
   for (std::size_t v = request.strokes.size(); v-- > 0;)
     for (std::size_t s = request.strokes[v].strokes.size(); s-- > 0;) {

@@ -106,6 +106,7 @@ ReplayOptions replay_options(const CutRequest& request, const CutSettings& setti
   options.choice = request.choice;
   options.work_width_px = settings.work_width_px;
   options.least_object_px = settings.least_object_px;
+  options.carried = request.carried;
   return options;
 }
 

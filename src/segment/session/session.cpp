@@ -105,21 +105,30 @@ CutRequest Session::in_place(const CutRequest& request, const Answered& answered
   CutRequest local = request;
   local.choice = answered.choice;
   set_size_steps(answered.size_steps, &local.strokes);
+  const std::size_t carried = answered.carried.strokes;
+  if (carried > 0 && carried <= stroke_count(request))
+    local.carried = {carried, labels_in(there->near, *answered.carried.rows)};
   if (there->near.row.empty()) return local;
   const Box box = there->near.place.cell.box_world();
   const std::vector<StrokedView> asked = std::exchange(local.strokes, {});
+  const Stroke* first = first_stroke(asked);
+  std::size_t before = 1, carried_here = 0;  // strokes that come before the next one in replay order
   for (const StrokedView& view : asked) {
     StrokedView here{view.camera, {}, there->seen.in(there->near, view.seen)};
-    for (Stroke stroke : view.strokes) {
+    for (const Stroke& stroke : view.strokes) {
+      const bool is_carried = &stroke == first || before++ < carried;
+      const std::size_t made = here.strokes.size();
       if (stroke.label != SeedLabel::kRest) {
-        if (!stroke.points_px.empty()) here.strokes.push_back(std::move(stroke));
-        continue;
+        if (!stroke.points_px.empty()) here.strokes.push_back(stroke);
+      } else {
+        const CameraStroke said{view.camera, stroke, view.seen};
+        for (Stroke& piece : pieces_in(box, said, hits(said, job))) here.strokes.push_back(std::move(piece));
       }
-      const CameraStroke said{view.camera, std::move(stroke), view.seen};
-      for (Stroke& piece : pieces_in(box, said, hits(said, job))) here.strokes.push_back(std::move(piece));
+      if (is_carried) carried_here += here.strokes.size() - made;
     }
     local.strokes.push_back(std::move(here));
   }
+  if (local.carried.strokes > 0) local.carried.strokes = carried_here;
   return local;
 }
 
@@ -143,7 +152,9 @@ void Session::keep_offer(const CutRequest& request, const Answered& answered, co
       result->likeliest_size = static_cast<std::size_t>(  // as the wheel counts from there
           std::max<std::ptrdiff_t>(0, static_cast<std::ptrdiff_t>(result->size) - last->size_step));
   }
-  if (result->meanings.empty() || (request.choice == 0 && first_size_step(request) == 0)) return;
+  const bool in_its_own =
+      request.choice == 0 && first_size_step(request) == 0 && answered.carried.strokes == 0;
+  if (result->meanings.empty() || in_its_own) return;
   const CutRequest first = first_of(request);
   const std::optional<Answered> offered = place_of(first, settings, job);
   if (!offered || offered->place == answered.place) return;

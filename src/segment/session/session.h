@@ -9,10 +9,12 @@
 //      as large.
 //   2. After each stroke, and again after the cut: while what is labelled touches the cell's side, or a
 //      stroke on the object hits what lies outside, the next cell is twice as large, about both. A cell
-//      that holds most of the scene is the scene. A first answer is shown while it grows. Other meanings of
-//      the first click, mostly one of which is the floor or a wall, make it grow when they are taken: they
+//      that holds most of the scene is the scene. A first answer is shown while it grows. What the strokes
+//      before the one that needs a larger cell have given was shown and corrected, so it stays: where they
+//      would mean something else there, their labels are carried over, leaf by leaf. Other meanings of the
+//      first click, mostly one of which is the floor or a wall, make the cell grow when they are taken: they
 //      are offered where the likeliest is answered, and found again in the larger cell by their labels. So
-//      are other sizes of every stroke, each a step from the one before, in the cell in which that is
+//      are other sizes of the last stroke, each a step from the one before, in the cell in which that is
 //      answered.
 // Strokes on the rest that hit nothing of the cell change nothing: there is no object there. A path on the
 // rest counts as the pieces of it that hit the cell. Cuts from pixels alone (the baselines) look at the whole
@@ -106,11 +108,17 @@ class Session {
  private:
   using Local = KeptNeighbourhood;
   // Where a request is answered, and which of the meanings and sizes that its strokes have there it takes.
+  // What the first strokes say, in replay order, as it was shown before later ones needed a larger place.
+  struct Carried {
+    std::size_t strokes = 0;                                   // so many of them; 0: none
+    std::shared_ptr<const std::vector<std::uint32_t>> rows{};  // of the scene that are object, ascending
+  };
   struct Answered {
     Place place;
     int choice = 0;  // as in CutRequest
     std::vector<int>
         size_steps{};  // Stroke::size_step of the strokes in replay order; the others have their own
+    Carried carried{};
   };
 
   SessionAmong* among(const CutRequest& request);

@@ -13,8 +13,9 @@ namespace splatcut {
 
 namespace {
 
-constexpr double kMostOfScene = 0.7;  // a cell that holds this share of the Gaussians is the scene
-constexpr int kMostHalvings = 5;      // of the first cell
+constexpr double kAlike = 0.7, kEnough = 0.9;  // IoU of labels of two places within the smaller one
+constexpr double kMostOfScene = 0.7;           // a cell that holds this share of the Gaussians is the scene
+constexpr int kMostHalvings = 5;               // of the first cell
 constexpr std::size_t kMostPlaces = 4096;
 
 Box joined(const Box& a, const Box& b) {
@@ -62,6 +63,15 @@ double likeness(std::span<const std::uint8_t> small, std::span<const std::uint8_
   return static_cast<double>(both) / static_cast<double>(std::max<std::size_t>(either, 1));
 }
 
+// rows: of the scene, that the labels are of.
+std::shared_ptr<const std::vector<std::uint32_t>> object_rows(std::span<const std::uint8_t> labels,
+                                                              std::span<const std::uint32_t> rows) {
+  std::vector<std::uint32_t> object;
+  for (std::size_t g = 0; g < labels.size(); ++g)
+    if (labels[g]) object.push_back(rows[g]);
+  return std::make_shared<const std::vector<std::uint32_t>>(std::move(object));
+}
+
 std::vector<std::uint8_t> changed(const std::vector<std::uint8_t>& before,
                                   const std::vector<std::uint8_t>& after) {
   std::vector<std::uint8_t> change(after.size());
@@ -82,6 +92,13 @@ bool covers(const Mask& mask, const CutResult& taken) {
 }
 
 }  // namespace
+
+SeenGaussians labels_in(const Neighbourhood& near, const std::vector<std::uint32_t>& object_rows) {
+  std::vector<std::uint8_t> labels(near.cloud->size(), 0);
+  for (const std::uint32_t g : rows_among(object_rows, near.row))
+    if (g != kNotThere) labels[g] = 1;
+  return std::make_shared<const std::vector<std::uint8_t>>(std::move(labels));
+}
 
 CutRequest request_of(std::span<const CameraStroke> strokes, const CutRequest& like) {
   CutRequest request;
@@ -310,8 +327,9 @@ std::optional<Session::Answered> Session::place_of(const CutRequest& request, co
   return Answered{place_of_all(reference->camera), request.choice};
 }
 
-// What is taken here in a larger place, which has its own meanings and sizes, in its own order. None: it has
-// nothing like the first stroke's, or cancelled.
+// What is taken here in a larger place, which has its own meanings and sizes, in its own order. What the
+// strokes before the last one say was shown, and stays: where they mean something else there, it is carried
+// over. None: the place has nothing like a first stroke's, or cancelled.
 std::optional<Session::Answered> Session::answered_in(const Place& larger, const Answered& here,
                                                       const CutRequest& request, const CutSettings& settings,
                                                       const Job& job) {
@@ -319,20 +337,33 @@ std::optional<Session::Answered> Session::answered_in(const Place& larger, const
     return a.choice == 0 && std::ranges::all_of(a.size_steps, [](int step) { return step == 0; });
   };
   Answered there{larger, here.choice, here.size_steps};
-  if (request.first_mask || !by_parts(settings) || in_their_own(here)) return there;
-  const std::optional<Answered> first = first_answered_in(larger, here, request, settings, job);
-  if (!first) return {};
-  there = *first;
+  if (request.first_mask || !by_parts(settings)) return there;
   const std::vector<CameraStroke> strokes = in_replay_order(strokes_in_order(request));
-  for (std::size_t i = 1; i < std::min(strokes.size(), here.size_steps.size()); ++i) {
-    there.size_steps.push_back(0);
-    if (here.size_steps[i] == 0) continue;
-    const auto before = request_of(std::span(strokes).first(i), request),
-               after = request_of(std::span(strokes).first(i + 1), request);
-    there.size_steps.back() = step_in(there, here, before, after, settings, job);
+  if (strokes.size() == 1)
+    return in_their_own(here) ? there : first_answered_in(larger, here, request, settings, job);
+  const CutRequest before = request_of(std::span(strokes).first(strokes.size() - 1), request);
+  there.carried = here.carried;
+  if (here.carried.strokes < strokes.size() - 1) {
+    Local* place = local(here.place, settings, job);
+    if (!place) return {};
+    const std::vector<std::uint8_t> shown =
+        place->session.meant(in_place(before, here, place, job), settings, job);
+    const std::vector<std::uint32_t> rows = place->near.row;  // the place may be pushed out
+    there.carried = {};
+    place = local(larger, settings, job);
+    if (!place) return {};
+    const std::vector<std::uint8_t> anew =
+        place->session.meant(in_place(before, there, place, job), settings, job);
     if (job.cancelled()) return {};
+    if (in_their_own(here) && likeness(shown, anew, rows_among(rows, place->near.row)) > kEnough)
+      return there;
+    there.carried = {strokes.size() - 1, object_rows(shown, rows)};
   }
-  return there;
+  if (there.size_steps.size() == strokes.size() && there.size_steps.back() != 0) {
+    there.size_steps.back() = 0;
+    there.size_steps.back() = step_in(there, here, before, request_of(strokes, request), settings, job);
+  }
+  return job.cancelled() ? std::nullopt : std::optional(there);
 }
 
 // How many of the steps go beyond the sizes that there were to choose from. Those continue in a larger place,
@@ -380,7 +411,6 @@ std::optional<Session::Answered> Session::first_answered_in(const Place& larger,
                                                             const CutRequest& request,
                                                             const CutSettings& settings, const Job& job) {
   if (here.choice == 0 && here.size_steps.front() == 0) return Answered{larger, 0, {0}};
-  constexpr double kAlike = 0.7, kEnough = 0.9;  // IoU of labels within the smaller place
   const CutRequest first = first_of(request);
   CutSettings alone = settings;
   alone.parts_only = true;
