@@ -310,7 +310,8 @@ nlohmann::json any_view_json(const LoadedCase& loaded, const AnyViewOptions& opt
       steps.next();
       sessions.push_back(any_view_session(
           world, start, options.clicks,
-          {static_cast<std::uint64_t>(draw), options.choices, options.sizes, options.near}, silent));
+          {static_cast<std::uint64_t>(draw), options.choices, options.sizes, options.near, options.details},
+          silent));
       if (job.cancelled()) return {};
       if (options.on_sheet)
         options.on_sheet(sheet_name(scene.name, sessions.back()),

@@ -34,6 +34,7 @@ struct AnyViewOptions {
   bool choices = false;               // the robot takes what is offered for the first click
   bool sizes = false;                 // it turns the wheel after each click
   float near = 1;                     // it corrects from that share of the distance
+  float details = 0;                  // it corrects details of so many pixels, see AnyViewHand
   std::optional<float> box_margin{};  // it begins with a box, see FirstStrokes
   int copies = 0;                     // of the scene, for "perturb"
   // Where set, each session's click_sheet(), with a name that serves as a file's.

@@ -288,9 +288,8 @@ void check_any_view(const EvalArguments& args) {
   if (!args.any_view) {
     if (args.robot_asked)
       throw CLI::ArgumentMismatch(
-          "--robot-clicks, --starts, --from-box, --zoom, --near, --choices, --sizes, --sheets and --perturb "
-          "go "
-          "with --any-view");
+          "--robot-clicks, --starts, --from-box, --zoom, --near, --details, --choices, --sizes, --sheets and "
+          "--perturb go with --any-view");
     return;
   }
   const MaskOptions& mask = args.mask;
@@ -391,6 +390,12 @@ void add_eval_command(CLI::App& program, const CommonOptions& common) {
           "--near", args->robot.near,
           "Its later clicks with the camera at that share of the distance, as one who zooms in to mend")
       ->check(CLI::Range(0.2, 1.0));
+  command
+      .add_option(
+          "--details", args->robot.details,
+          "Its later clicks on any wrong region whose middle lies so many pixels from its border, by chance, "
+          "in place of the largest one")
+      ->check(CLI::Range(1.0, 100.0));
   add_box_option(command, &args->robot.box_margin)->excludes("--zoom");
   command.add_flag(
       "--choices", args->robot.choices,
@@ -423,8 +428,8 @@ void add_eval_command(CLI::App& program, const CommonOptions& common) {
   command.add_flag("--overwrite", args->overwrite, "Replace existing output");
   command.callback([args, &command, &common] {
     args->clicks_given = command.count("--clicks") > 0;
-    for (const char* option : {"--robot-clicks", "--starts", "--from-box", "--zoom", "--near", "--choices",
-                               "--sizes", "--sheets", "--perturb"})
+    for (const char* option : {"--robot-clicks", "--starts", "--from-box", "--zoom", "--near", "--details",
+                               "--choices", "--sizes", "--sheets", "--perturb"})
       args->robot_asked |= command.count(option) > 0;
     run_eval(*args, common);
   });

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "app/measure/robot_user.h"
+#include "core/counter_rng.h"
 #include "core/error.h"
 #include "scene/raster/rasterizer.h"
 #include "segment/masks/mask_tools.h"
@@ -36,8 +37,23 @@ std::vector<Mask> pictures(const AnyViewWorld& world, const std::vector<std::uin
   return shown;
 }
 
+// The middle of any detail that is wrong in any view.
+std::optional<ViewClick> click_on_detail(const AnyViewWorld& world, const std::vector<Mask>& shown,
+                                         std::uint64_t draw, float least_px) {
+  constexpr std::uint64_t kSeed = 77;
+  std::vector<std::pair<const TruthView*, WrongRegion>> all;
+  for (std::size_t v = 0; v < world.views.size(); ++v)
+    for (WrongRegion& wrong : wrong_details(world.views[v].truth, shown[v], least_px))
+      all.emplace_back(&world.views[v], std::move(wrong));
+  if (all.empty()) return std::nullopt;
+  const auto& [view, wrong] = all[CounterRng(kSeed + draw, all.size()).below(all.size())];
+  return ViewClick{view->camera, *click_in(wrong)};
+}
+
 std::optional<ViewClick> next_click(const AnyViewWorld& world, const std::vector<Mask>& shown,
-                                    std::uint64_t draw) {
+                                    std::uint64_t draw, float details) {
+  if (details > 0)
+    if (const auto detail = click_on_detail(world, shown, draw, details)) return detail;
   WrongRegion largest;
   const TruthView* where = nullptr;
   for (std::size_t v = 0; v < world.views.size(); ++v) {
@@ -160,7 +176,7 @@ AnyViewSession any_view_session(const AnyViewWorld& world, const AnyViewStart& s
   double ms = 0, cuts = 0;
   for (int i = 0; i < clicks && !job.cancelled(); ++i) {
     std::optional<ViewClick> next = ViewClick{start.camera, start.first};
-    if (i > 0) next = next_click(world, shown, draw_of(hand.draw, static_cast<std::size_t>(i)));
+    if (i > 0) next = next_click(world, shown, draw_of(hand.draw, static_cast<std::size_t>(i)), hand.details);
     if (i > 0 && next && hand.near != 1 && world.cloud)
       next = zoomed_click(*world.cloud, {{}, next->camera, next->stroke}, hand.near).value_or(*next);
     if (i == 1 && next && hand.choices) session.choice = better_meaning(world, start.camera, meanings);

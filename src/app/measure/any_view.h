@@ -81,6 +81,8 @@ struct AnyViewHand {
   bool choices = false;    // takes what is offered
   bool sizes = false;      // turns the wheel after a click
   float near = 1;          // corrects from that share of the distance, where what is wrong shows from there
+  float details =
+      0;  // above 0: corrects any of wrong_details() of so many pixels by chance, while there is one
 };
 AnyViewSession any_view_session(const AnyViewWorld& world, const AnyViewStart& start, int clicks,
                                 const AnyViewHand& hand = {}, const Job& job = {});

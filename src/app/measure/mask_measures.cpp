@@ -51,16 +51,20 @@ double boundary_iou(const Mask& a, const Mask& b, double band_px) {
   return iou(border_band(a, band_px), border_band(b, band_px));
 }
 
-Mask largest_region(const Mask& mask) {
+std::vector<std::vector<std::size_t>> regions(const Mask& mask) {
   Mask left = mask;
-  std::vector<std::size_t> largest;
-  for (std::size_t i = 0; i < left.size(); ++i) {
-    if (!left.pixels()[i]) continue;
-    std::vector<std::size_t> region = region_at(i, &left);
-    if (region.size() > largest.size()) largest = std::move(region);
-  }
+  std::vector<std::vector<std::size_t>> all;
+  for (std::size_t i = 0; i < left.size(); ++i)
+    if (left.pixels()[i]) all.push_back(region_at(i, &left));
+  return all;
+}
+
+Mask largest_region(const Mask& mask) {
   Mask out(mask.width(), mask.height());
-  for (const std::size_t i : largest) out.pixels()[i] = kMaskObject;
+  const std::vector<std::vector<std::size_t>> all = regions(mask);
+  if (all.empty()) return out;
+  for (const std::size_t i : *std::ranges::max_element(all, {}, &std::vector<std::size_t>::size))
+    out.pixels()[i] = kMaskObject;
   return out;
 }
 

@@ -10,13 +10,35 @@
 
 namespace splatcut {
 
-WrongRegion wrong_region(const Mask& truth, const Mask& mask) {
-  Mask missing(truth.width(), truth.height()), extra(truth.width(), truth.height());
+namespace {
+
+// Where the mask lacks what its label should be.
+Mask wrong(const Mask& truth, const Mask& mask, SeedLabel label) {
+  Mask wrong(truth.width(), truth.height());
   for (std::size_t i = 0; i < truth.size(); ++i) {
     const bool is = truth.pixels()[i], said = mask.pixels()[i];
-    missing.pixels()[i] = is && !said ? kMaskObject : 0;
-    extra.pixels()[i] = !is && said ? kMaskObject : 0;
+    if (is != said && is == (label == SeedLabel::kObject)) wrong.pixels()[i] = kMaskObject;
   }
+  return wrong;
+}
+
+}  // namespace
+
+std::vector<WrongRegion> wrong_details(const Mask& truth, const Mask& mask, float least_px) {
+  std::vector<WrongRegion> details;
+  for (const SeedLabel label : {SeedLabel::kObject, SeedLabel::kRest})
+    for (const std::vector<std::size_t>& pixels : regions(wrong(truth, mask, label))) {
+      if (static_cast<float>(pixels.size()) < 4 * least_px * least_px) continue;
+      WrongRegion region{Mask(truth.width(), truth.height()), pixels.size(), label};
+      for (const std::size_t i : pixels) region.region.pixels()[i] = kMaskObject;
+      if (std::ranges::max(distance_inside(region.region).pixels()) >= least_px)
+        details.push_back(std::move(region));
+    }
+  return details;
+}
+
+WrongRegion wrong_region(const Mask& truth, const Mask& mask) {
+  const Mask missing = wrong(truth, mask, SeedLabel::kObject), extra = wrong(truth, mask, SeedLabel::kRest);
   Mask most_missing = largest_region(missing), most_extra = largest_region(extra);
   const std::size_t missing_px = count(most_missing), extra_px = count(most_extra);
   if (missing_px >= extra_px) return {std::move(most_missing), missing_px, SeedLabel::kObject};

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "core/image.h"
 #include "segment/masks/seeds.h"
@@ -18,6 +19,10 @@ struct WrongRegion {
   SeedLabel label = SeedLabel::kObject;
 };
 WrongRegion wrong_region(const Mask& truth, const Mask& mask);
+
+// Every wrong region that is a detail at least: its middle lies that many pixels from its border, and it has
+// four times their square. Missing ones before extra ones.
+std::vector<WrongRegion> wrong_details(const Mask& truth, const Mask& mask, float least_px);
 
 // The middle of the region, the pixel farthest from its border, the first one where there are several; with
 // an unsteady hand (draw != 0) any pixel at least half as deep inside, by chance. None for an empty region.

@@ -116,6 +116,30 @@ TEST_CASE("any view: clicks, obedience, falls and clicks to a goal are those cou
   CHECK(j["obeyed"].get<double>() == doctest::Approx(0.8));
 }
 
+TEST_CASE(
+    "any view: a hand that mends details takes each of them in turn, by chance, not the largest alone") {
+  const Mask wide = block(1, 1, 10, 6), square = block(4, 2, 4, 4), none(kWidth, kHeight);
+  const Mask line = block(0, 0, 12, 1);  // too thin for a detail
+  const std::vector<WrongRegion> details = wrong_details(wide, both(square, line), 2);
+  REQUIRE(details.size() == 1);
+  CHECK(details[0].pixels == 10 * 6 - 4 * 4);
+  CHECK(details[0].label == SeedLabel::kObject);
+  REQUIRE(wrong_details(none, both(square, line), 2).size() == 1);
+  CHECK(wrong_details(none, square, 2)[0].label == SeedLabel::kRest);
+  CHECK(wrong_details(none, square, 3).empty());
+  int in_small = 0, in_large = 0;
+  for (std::uint64_t draw = 0; draw < 20; ++draw) {
+    Toy toy(wide, square);
+    toy.answers = {{none, none}, {wide, square}};
+    const AnyViewSession session =
+        any_view_session(toy.world, toy.start_in_1({5.5f, 3.5f}), 2, {.draw = draw, .details = 2});
+    REQUIRE(session.clicks.size() == 2);
+    (session.clicks[1].camera.name == "1" ? in_small : in_large) += 1;
+  }
+  CHECK(in_small > 4);
+  CHECK(in_large > 4);
+}
+
 TEST_CASE("any view: each meaning that is offered is scored over all views") {
   const Mask wide = block(2, 1, 5, 3), square = block(4, 2, 3, 3), none(kWidth, kHeight);
   Toy toy(wide, square);
