@@ -376,7 +376,8 @@ void Asking::add_first_meaning(Chain chain, const TermValues& terms) {
   out_.candidates.push_back(candidate);
 }
 
-// kApart: how much of what changes the click does not reach.
+// kApart: how much of what changes the click does not reach. What it mostly does not reach was hardly meant
+// twice.
 void Asking::add_apart_terms() {
   std::vector<std::vector<float>> shares(out_.chains.size());
   for (Candidate& candidate : out_.candidates) {
@@ -385,7 +386,9 @@ void Asking::add_apart_terms() {
     if (of_chain.empty())
       of_chain = shares_out_of_reach(levels_of(candidate.chain).of_pixel, chain.nodes.size(),
                                      click_.view.steps, click_.at);
-    term(&candidate, Term::kApart) = of_chain[candidate.index];
+    const float apart = of_chain[candidate.index];
+    term(&candidate, Term::kApart) = apart;
+    term(&candidate, Term::kAgain) *= std::min(1.0f, 2 * (1 - apart));
   }
 }
 

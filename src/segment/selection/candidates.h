@@ -42,6 +42,7 @@
 // - kAgain (the second to the fifth correction): 1 if the one before was of the same sign and the node holds
 //   the leaf that it clicked. A second click of one sign in a row mostly says that the first one took too
 //   little. Later corrections mend details, and so do those after a box, which says how far a thing reaches.
+//   Less where kApart is above a half, down to 0: that is another thing.
 // - kDisc: 1 if nothing but the disc would change.
 // - kRepick (clicks on the rest): 1 if the first click gets the likeliest other meaning that is left
 //   (first_meanings.h). This is a candidate if the first click is the only one on the object and f is at most

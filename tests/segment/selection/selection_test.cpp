@@ -356,6 +356,28 @@ TEST_CASE("selection: a correction leaves what another thing hides it from to it
   CHECK(labels() == Labels{1, 0, 1, 1});
 }
 
+TEST_CASE("selection: what a correction mostly does not reach was hardly meant twice") {
+  const PartHierarchy parts = four_leaves();
+  // Of the first two stripes a click at 2 reaches so many columns without a jump in depth.
+  const auto again_where = [&](int reached) {
+    LeafView view = stripes(parts);
+    for (int y = 0; y < 10; ++y)
+      for (int x = reached; x < 40; ++x) view.depth.at(x, y) *= 3;
+    view.steps = steps_without_jump(view.depth);
+    ClickSelection selection(parts, borders_alone());
+    for (const Stroke& stroke : {sized(object(35), 10), rest(25)}) selection.apply(view, stroke);
+    const std::optional<Answers> answers = selection.considered(view, {2, 5}, false, {.all_terms = true});
+    REQUIRE(answers);
+    float most = 0;  // of the whole tree, which alone holds the click before
+    for (const Candidate& c : answers->candidates) most = std::max(most, weight(c.terms, Term::kAgain));
+    return most;
+  };
+  CHECK(again_where(40) == 1);
+  CHECK(again_where(10) == 1);
+  CHECK(again_where(5) == doctest::Approx(0.5));
+  CHECK(again_where(4) == doctest::Approx(0.4));
+}
+
 TEST_CASE("selection: a scribble decides all that is under it") {
   const PartHierarchy parts = four_leaves();
   const LeafView view = stripes(parts);
