@@ -253,6 +253,26 @@ void share_again(const Document& document, ObjectItem* object, std::size_t gauss
   set_of_others(object, kept_by_locked(document, *object, gaussians));
 }
 
+void share_what_is_hit(const Document& document, ObjectItem* object, std::span<const std::int32_t> hits,
+                       std::size_t gaussians) {
+  std::vector<std::uint8_t> left = *object->of_others, had(gaussians, 0), shared(gaussians, 0);
+  std::vector<ObjectId> leaves_also = object->leaves_also;
+  for (const ObjectItem& other : document.objects) {
+    if (!are_apart(document, *object, other)) continue;
+    const std::vector<std::uint8_t> labels = labels_of(document, other, gaussians);
+    const bool is_hit = holds_for_most(hits, [&](std::size_t g) { return labels[g] && left[g]; });
+    if (is_hit) std::erase(leaves_also, other.id);
+    for (std::size_t g = 0; g < gaussians; ++g) {
+      had[g] |= labels[g];
+      shared[g] |= labels[g] && is_hit;
+    }
+  }
+  const bool is_anybodys = count_flags(shared) > 0;
+  for (std::size_t g = 0; g < gaussians; ++g) left[g] = left[g] && (is_anybodys ? !shared[g] : had[g] != 0);
+  set_of_others(object, count_flags(left) > 0 ? make_flags(std::move(left)) : nullptr);
+  object->leaves_also = std::move(leaves_also);
+}
+
 void leave_to_others(const Document& document, ObjectItem* object, std::size_t gaussians) {
   set_of_others(object, had_by_others(document, *object, gaussians));
   for (const ObjectItem& other : document.objects)

@@ -51,7 +51,7 @@ void settle_with_others(Document* document, ObjectItem* object, std::span<const 
                 base_colour(context.cloud, static_cast<std::size_t>(hits[hits.size() / 2])));
     leave_to_others(*document, object, n);
   }
-  if (means_what_is_left(*document, *object, hits)) share_again(*document, object, n);
+  if (means_what_is_left(*document, *object, hits)) share_what_is_hit(*document, object, hits, n);
   leave_to_locked(*document, object, n);
   if (reaches_beyond(*object, hits)) object->among = nullptr;
 }
@@ -156,7 +156,8 @@ Flags changed_by(const Document& document, const AddStroke& stroke, std::vector<
     if (object.of_others != left) set_of_others(&object, left);
     const std::size_t n = context.cloud.size();
     if (locked_under(document, object, stroke.hits)) after = before;
-    if (means_what_is_left(document, object, stroke.hits)) share_again(document, &object, n);
+    if (means_what_is_left(document, object, stroke.hits))
+      share_what_is_hit(document, &object, stroke.hits, n);
   }
   std::vector<std::uint8_t> change = with_cut(document, std::move(before));
   const std::vector<std::uint8_t> then = with_cut(std::move(stroked_document), std::move(after));

@@ -67,6 +67,29 @@ TEST_CASE("object labels: one of them is as all of them are, and a lock leaves e
   }
 }
 
+TEST_CASE("object labels: a click on what another object has shares with that one alone") {
+  const GaussianCloud cloud = random_cloud(8, 1, 0);
+  const Camera camera;
+  Document document;
+  add_object(&document).cut = make_flags({1, 1, 0, 0, 0, 0, 0, 0});
+  add_object(&document).cut = make_flags({0, 0, 1, 1, 0, 0, 0, 0});
+  ObjectItem& third = add_object(&document);
+  third.views = {{camera, {click({1, 1}, SeedLabel::kObject)}}};
+  third.cut = make_flags({1, 1, 1, 1, 1, 0, 0, 0});
+  document.active = third.id;
+  const auto after_click_on = [&](std::vector<std::uint8_t> left, std::int32_t hit) {
+    document.find(3)->of_others = make_flags(std::move(left));
+    Document now = document;
+    edit(&now, AddStroke{camera, click({2, 2}, SeedLabel::kObject), {}, {hit}}, {cloud});
+    return labels_of(now, *now.find(3), 8);
+  };
+  using Labels = std::vector<std::uint8_t>;
+  CHECK(after_click_on({1, 1, 1, 1, 0, 0, 0, 0}, 4) == Labels{0, 0, 0, 0, 1, 0, 0, 0});
+  CHECK(after_click_on({1, 1, 1, 1, 0, 0, 0, 0}, 2) == Labels{0, 0, 1, 1, 1, 0, 0, 0});
+  // What nobody has any more is the object's again, and nothing else.
+  CHECK(after_click_on({1, 1, 1, 1, 1, 0, 0, 0}, 4) == Labels{0, 0, 0, 0, 1, 0, 0, 0});
+}
+
 TEST_CASE(
     "object labels: locking hundred objects one by one keeps the window waiting for less than a second "
     "each") {
