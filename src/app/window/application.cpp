@@ -129,7 +129,7 @@ void Application::take_now(const PointerButtonChanged& event) {
   if (!interface_.picture_at(pointer_, studio_)) return;
   if (event.button == PointerButton::kLeft && interface_.handle_at(pointer_)) return;
   dragging_picture_ = true;
-  if (twice)
+  if (twice && tool_of(studio_.view().tool).double_click)  // else a stroke may begin where the last one ended
     studio_.pointer_double_clicked(in_viewport_px(pointer_));
   else
     studio_.pointer_pressed(in_viewport_px(pointer_), event.button, event.modifiers);

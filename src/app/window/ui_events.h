@@ -20,7 +20,9 @@ struct PointerButtonChanged {
   PointerButton button = PointerButton::kLeft;
   bool down = false;
   Modifiers modifiers;
-  std::optional<double> time_s = {};  // when the hand did it, any clock; none: at this frame
+  // Time when the window took the event from the system's queue, on any clock; none: at this frame. GLFW does
+  // not say when the hand did it: during a frame, events wait.
+  std::optional<double> time_s = {};
 };
 struct WheelTurned {
   float steps = 0;
