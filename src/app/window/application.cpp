@@ -4,6 +4,7 @@
 #include <glad/gl.h>
 
 #include <algorithm>
+#include <cfloat>
 #include <chrono>
 #include <thread>
 
@@ -99,6 +100,7 @@ void Application::handle_one(const PointerMoved& event) {
 
 void Application::take_now(const PointerMoved& event) {
   pointer_ = event.position_points;
+  left_window_ = !UiRect{{0, 0}, size_points_}.contains(pointer_);
   ImGui::GetIO().MousePos = {pointer_.x, pointer_.y};
   set_modifiers(event.modifiers);
   if (dragging_picture_ || interface_.picture_at(pointer_, studio_))
@@ -120,8 +122,8 @@ void Application::take_now(const PointerButtonChanged& event) {
   if (!event.down) {
     dropped_since_frame_ |= !dragging_picture_;  // what is dragged ends where the pointer is now
     if (dragging_picture_) studio_.pointer_released(in_viewport_px(pointer_), event.button, event.modifiers);
-    dragging_picture_ =
-        std::ranges::any_of(button_down_, [](bool down) { return down; }) && dragging_picture_;
+    dragging_picture_ = button_held() && dragging_picture_;
+    if (left_window_) take(PointerLeft());
     return;
   }
   const bool twice = is_second_click(event);
@@ -133,6 +135,23 @@ void Application::take_now(const PointerButtonChanged& event) {
     studio_.pointer_double_clicked(in_viewport_px(pointer_));
   else
     studio_.pointer_pressed(in_viewport_px(pointer_), event.button, event.modifiers);
+}
+
+void Application::handle_one(const PointerLeft& event) {
+  take(event);
+}
+
+// A drag goes on outside of the window. Else nothing lies under the pointer any more.
+void Application::take_now(const PointerLeft&) {
+  left_window_ = true;
+  if (button_held()) return;
+  pointer_ = kNowhere;
+  ImGui::GetIO().MousePos = {-FLT_MAX, -FLT_MAX};
+  studio_.pointer_left();
+}
+
+bool Application::button_held() const {
+  return std::ranges::any_of(button_down_, [](bool down) { return down; });
 }
 
 bool Application::is_second_click(const PointerButtonChanged& press) {

@@ -24,6 +24,7 @@ struct PointerButtonChanged {
   // not say when the hand did it: during a frame, events wait.
   std::optional<double> time_s = {};
 };
+struct PointerLeft {};  // the pointer left the window
 struct WheelTurned {
   float steps = 0;
   Modifiers modifiers;
@@ -44,7 +45,7 @@ struct FocusChanged {
   bool focused = true;
 };
 
-using UiEvent = std::variant<PointerMoved, PointerButtonChanged, WheelTurned, KeyChanged, TextTyped,
-                             FileDropped, FocusChanged>;
+using UiEvent = std::variant<PointerMoved, PointerButtonChanged, PointerLeft, WheelTurned, KeyChanged,
+                             TextTyped, FileDropped, FocusChanged>;
 
 }  // namespace splatcut

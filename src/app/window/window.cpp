@@ -179,6 +179,9 @@ void install_callbacks(GLFWwindow* window) {
   glfwSetCursorPosCallback(window, [](GLFWwindow* w, double x, double y) {
     loop_of(w).send(PointerMoved{loop_of(w).points(x, y), held_modifiers(w)});
   });
+  glfwSetCursorEnterCallback(window, [](GLFWwindow* w, int entered) {
+    if (!entered) loop_of(w).send(PointerLeft());
+  });
   glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int button, int action, int mods) {
     if (button > GLFW_MOUSE_BUTTON_MIDDLE) return;
     loop_of(w).send(PointerButtonChanged{static_cast<PointerButton>(button), action == GLFW_PRESS,
