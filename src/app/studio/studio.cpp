@@ -223,6 +223,11 @@ void Studio::set_viewport(int width_px, int height_px, float pixels_per_point) {
   if (cursor_px_) cursor_px_ = within_picture(*cursor_px_);
 }
 
+void Studio::leave_gpu_view(const std::string& reason) {
+  set_gpu_view(false);
+  ws_.say(Message::Kind::kError, reason);
+}
+
 void Studio::perform(const ShowFloaters& c) {
   ws_.require_scene();
   viewport_.show_floaters(c.shown);

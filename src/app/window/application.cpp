@@ -6,7 +6,10 @@
 #include <algorithm>
 #include <cfloat>
 #include <chrono>
+#include <new>
 #include <thread>
+
+#include "core/error.h"
 
 namespace splatcut {
 
@@ -335,18 +338,40 @@ void Application::build_interface(double seconds, Requests* ask) {
   for (int i = 0; i < 3; ++i)
     ImGui::GetIO().MouseDown[i] = std::exchange(pressed_since_frame_[i], false) || button_down_[i];
   ImTextureID gpu_pictures[2] = {};
-  if (gpu_) {
-    GLint target = 0;  // drawing splats binds others
-    glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &target);
-    const auto textures = gpu_->draw(studio_);
-    for (std::size_t i = 0; i < 2; ++i) gpu_pictures[i] = texture_id(textures[i]);
-    glBindFramebuffer(GL_FRAMEBUFFER, static_cast<GLuint>(target));
-  }
+  if (gpu_) draw_by_gpu(gpu_pictures);
   interface_.state().marked = walk_.mark();
   walk_.before_frame();
   interface_.build(studio_, seconds, &renderer_, gpu_pictures, ask);
   walk_.after_frame();
   take_held_back();
+}
+
+void Application::draw_by_gpu(ImTextureID pictures[2]) {
+  GLint target = 0;  // drawing splats binds others
+  glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &target);
+  try {
+    const auto textures = gpu_->draw(studio_);
+    for (std::size_t i = 0; i < 2; ++i) pictures[i] = texture_id(textures[i]);
+  } catch (const std::exception& error) {
+    go_on_without_gpu(error);
+  }
+  glBindFramebuffer(GL_FRAMEBUFFER, static_cast<GLuint>(target));
+}
+
+// A scene may be larger than what a driver's buffers hold, or than the memory left for copies: it is drawn
+// all the same, and no work is lost.
+void Application::go_on_without_gpu(const std::exception& why) {
+  const auto* known = dynamic_cast<const Error*>(&why);
+  std::string reason = known                                       ? std::string(known->unstopped())
+                       : dynamic_cast<const std::bad_alloc*>(&why) ? "there is not enough memory"
+                                                                   : "its driver failed";
+  reason.resize(std::min(reason.size(), reason.find(". ")));  // what helps is done here
+  gpu_.reset();
+  interface_.state().renderer_line = "CPU renderer (the scene is too large for OpenGL)";
+  studio_.leave_gpu_view(
+      fmt::format("The graphics card cannot draw this scene ({}). The CPU does until the end "
+                  "of the program, slower while the view moves.",
+                  reason));
 }
 
 void Application::draw() {

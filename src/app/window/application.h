@@ -83,6 +83,8 @@ class Application {
   void open(const OpenScene& command);  // asks first where work would be lost
   void remember_recent();
   void build_interface(double seconds, Requests* ask);
+  void draw_by_gpu(ImTextureID pictures[2]);
+  void go_on_without_gpu(const std::exception& why);
   bool advance(double seconds, bool draws);
 
   Studio studio_;
