@@ -109,7 +109,9 @@ void Studio::scene_opened(bool same) {
   cuts_.reset();
   edits_.reset(same);
   clicks_.reset();
-  held_pointer_.clear();
+  // A release may be among the events that wait, and a click is not for another scene than its press. A drag
+  // that moves the camera goes on.
+  if (!std::exchange(held_pointer_, {}).empty() || !ws_.tools.moves_camera()) ws_.tools.let_go();
   held_actions_ = {};
   abandon_shape();
   hide_cursor();

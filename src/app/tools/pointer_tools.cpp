@@ -124,6 +124,11 @@ bool PointerTools::abandon() {
   return any;
 }
 
+void PointerTools::let_go() {
+  state_.button.reset();
+  drag_ = Drag::kNone;
+}
+
 std::vector<Command> PointerTools::double_click(const glm::vec2& pixel, const ToolContext& context) {
   return use(tool_of(context.view.tool).double_click, pixel, context);
 }

@@ -45,3 +45,38 @@ TEST_CASE("still view: wheel and flight keys wait until a shape is drawn") {
   hands.app.key(key::kEscape);
   CHECK_FALSE(stays());
 }
+
+TEST_CASE("still view: a press ends with its scene, and the next one counts") {
+  for (const bool waits : {false, true}) {
+    CAPTURE(waits);
+    Hands hands;
+    const glm::vec2 at = hands.app.screen_of(kOnApple);
+    hands.app.move(at);
+    if (waits) hands.studio().run(Action::kIsolate);  // the events wait until the apple is alone
+    hands.app.press(PointerButton::kLeft);
+    hands.app.frames(1);
+    hands.studio().apply(OpenScene{kSmallSample});
+    if (waits) hands.app.release(PointerButton::kLeft);
+    REQUIRE(hands.app.settle());
+    CHECK_FALSE(hands.studio().tools().dragging());
+    if (!waits) hands.app.release(PointerButton::kLeft);
+    REQUIRE(hands.app.settle());
+    CHECK(hands.studio().document().objects.empty());  // no click in the scene that came
+    hands.app->advance(0.5);
+    hands.app.click(hands.app.screen_of(kOnApple));
+    CHECK(hands.selected() > 0);
+  }
+}
+
+TEST_CASE("still view: a drag of the camera goes on in the scene that comes") {
+  Hands hands(false);
+  const glm::vec2 at = hands.app.screen_of(kOnApple);
+  hands.app.move(at);
+  hands.app.press(PointerButton::kMiddle);
+  hands.app.move(at + glm::vec2(30, 0));
+  hands.studio().apply(OpenScene{kSmallSample});
+  REQUIRE(hands.app.settle());
+  CHECK(hands.studio().tools().dragging());
+  hands.app.release(PointerButton::kMiddle);
+  CHECK_FALSE(hands.studio().tools().dragging());
+}
