@@ -12,8 +12,7 @@ namespace splatcut {
 void check_turntable(const SaveTurntable& command);
 
 // Cameras of one turn around the object, at the elevation of the front camera, which looks in the first one's
-// direction. The
-// whole object fits into each picture.
+// direction. The whole object fits into each picture.
 std::vector<Camera> cameras_of_turn(const ObjectExtent& extent, const Camera& front,
                                     const glm::vec3& up_world, const SaveTurntable& command);
 

@@ -109,7 +109,9 @@ void Studio::scene_opened(bool same) {
   cuts_.reset();
   edits_.reset(same);
   clicks_.reset();
-  held_pointer_.clear();
+  // A release may be among the events that wait, and a click is not for another scene than its press. A drag
+  // that moves the camera goes on.
+  if (!std::exchange(held_pointer_, {}).empty() || !ws_.tools.moves_camera()) ws_.tools.let_go();
   held_actions_ = {};
   abandon_shape();
   hide_cursor();
@@ -221,6 +223,11 @@ std::optional<CleanReport> Studio::clean_edges(ObjectId id) const {
 void Studio::set_viewport(int width_px, int height_px, float pixels_per_point) {
   viewport_.set_size(width_px, height_px, pixels_per_point);
   if (cursor_px_) cursor_px_ = within_picture(*cursor_px_);
+}
+
+void Studio::leave_gpu_view(const std::string& reason) {
+  set_gpu_view(false);
+  ws_.say(Message::Kind::kError, reason);
 }
 
 void Studio::perform(const ShowFloaters& c) {

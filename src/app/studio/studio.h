@@ -52,8 +52,9 @@ class Studio {
   const std::optional<glm::vec2>& cursor_px() const { return cursor_px_; }
   bool cursor_draws() const { return cursor_press_.has_value(); }  // true: arrows draw until the next Enter
   void set_gpu_view(bool gpu) { viewport_.set_gpu_view(gpu); }
-  void leave() { work_.leave(); }                // the program ends
-  void keep_unsaved() { work_.keep_unsaved(); }  // a signal ends the program
+  void leave_gpu_view(const std::string& reason);  // says why the CPU draws from now on
+  void leave() { work_.leave(); }                  // the program ends
+  void keep_unsaved() { work_.keep_unsaved(); }    // a signal ends the program
 
   // Takes results, moves transitions on and makes requests; called once a frame. Returns true while something
   // moves or waits.

@@ -65,6 +65,7 @@ void Studio::release_keys() {
 
 Flight Studio::flight() const {
   Flight flight;
+  if (ws_.tools.at_work()) return flight;  // the view stays under what is drawn
   for (const int code : held_keys_) {
     const Action action = action_for(code, {});
     flight.forward += (action == Action::kFlyForward) - (action == Action::kFlyBack);
@@ -183,7 +184,7 @@ bool Studio::hide_cursor() {
 
 void Studio::wheel(float steps, const Modifiers& modifiers) {
   if (!ws_.scene) return;
-  const bool sizes = !modifiers.alt && clicks_.wheel_takes_sizes();
+  const bool sizes = !modifiers.alt && !ws_.tools.at_work() && clicks_.wheel_takes_sizes();
   if (!flight().moving() && sizes && steps != 0) return apply(StepScale{steps > 0 ? 1 : -1});
   if (!flight().moving())
     return run_all(ws_.tools.wheel(steps, modifiers, viewport_.tool_context(ws_.tools.pointer_px())));

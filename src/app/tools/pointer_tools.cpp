@@ -124,6 +124,11 @@ bool PointerTools::abandon() {
   return any;
 }
 
+void PointerTools::let_go() {
+  state_.button.reset();
+  drag_ = Drag::kNone;
+}
+
 std::vector<Command> PointerTools::double_click(const glm::vec2& pixel, const ToolContext& context) {
   return use(tool_of(context.view.tool).double_click, pixel, context);
 }
@@ -136,6 +141,7 @@ std::vector<Command> PointerTools::wheel(float steps, const Modifiers& modifiers
     view.brush_px = std::clamp(view.brush_px * std::pow(kBrushStep, steps), kLeastBrushPx, kMostBrushPx);
     return {SetView{view}};
   }
+  if (at_work()) return {};  // the view stays under what is drawn
   if ((state_.scale_armed || modifiers.shift) && steps != 0) return {StepScale{steps > 0 ? 1 : -1}};
   const glm::vec2& at = state_.pointer_px;
   const float depth = context.depth(at).value_or(context.camera.pose().distance);

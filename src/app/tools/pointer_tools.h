@@ -24,6 +24,7 @@ class PointerTools {
 
   std::vector<Command> confirm(const ToolContext& context);  // closes a polygon
   bool abandon();  // drops a shape or a drag; returns true if there was one
+  void let_go();   // forgets the button that is held: its release may never come, and means nothing
 
   // dragging(): a button is held. at_work(): a shape is begun.
   bool dragging() const { return state_.button.has_value(); }

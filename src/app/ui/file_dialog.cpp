@@ -188,6 +188,7 @@ void open_file_dialog(UiContext& ui, FilePurpose purpose) {
   const FileKind kind = kind_of(purpose);
   FileBrowser& files = ui.state.files;
   ui.state.file_purpose = purpose;
+  ui.state.replace_asked.reset();  // that question was about another purpose
   if (purpose != FilePurpose::kSaveWork) ui.state.after_save.reset();
   files.title = kind.title;
   files.extensions = kind.shown;

@@ -92,13 +92,10 @@ void scroll_by_keys() {
 std::string pointer_words() {
   return std::string("Click: ") + Tool::kClick.sentence + " Navigate: " + Tool::kNavigate.sentence +
          " A middle drag turns with any tool, with Shift it shifts. Shift+wheel: sizes of the last click at "
-         "any "
-         "time; while a flight key is held, the wheel changes the speed. While other meanings of a click are "
-         "shown, 1, 2 and 3 choose one, until Esc; after a click without, they are tools, and say so. Where "
-         "one "
-         "clicks, draws or selects, Shift adds, Ctrl "
-         "removes, "
-         "Alt intersects. Alt+wheel: the brush. Tab marks buttons and fields, Enter presses them.";
+         "any time; while a flight key is held, the wheel changes the speed. While other meanings of a click "
+         "are shown, 1, 2 and 3 choose one, until Esc; after a click without, they are tools, and say so. "
+         "Where one clicks, draws or selects, Shift adds, Ctrl removes, Alt intersects. Alt+wheel: the "
+         "brush. Tab marks buttons and fields, Enter presses them.";
 }
 
 float keys_width() {

@@ -14,8 +14,9 @@ namespace {
 
 constexpr float kBodyPoints = 15, kTitlePoints = 23, kIconPoints = 15;
 
-// Latin, Greek, Cyrillic for file names; dashes, dots and quotes.
-constexpr ImWchar kTextRange[] = {0x20, 0x17f, 0x370, 0x3ff, 0x400, 0x4ff, 0x2010, 0x203a, 0};
+// Latin with that of Vietnamese, accents that stand by themselves (names from a Mac have them), Greek and
+// Cyrillic for file names; dashes, dots and quotes.
+constexpr ImWchar kTextRange[] = {0x20, 0x24f, 0x300, 0x52f, 0x1e00, 0x1eff, 0x2010, 0x203a, 0};
 constexpr ImWchar kIconRange[] = {0xf000, 0xf2e0, 0};
 
 ImFont* add_font(const char* begin, const char* end, float pixels, const ImWchar* range,

@@ -50,7 +50,7 @@ inline constexpr const char *kOpen = "\xef\x81\xbc", *kSave = "\xef\x83\x87", *k
                             *kWarning = "\xef\x81\xb1", *kFolder = "\xef\x81\xbb", *kFile = "\xef\x85\x9b",
                             *kRefresh = "\xef\x80\xa1", *kFilm = "\xef\x80\x88", *kTint = "\xef\x81\x83",
                             *kHeat = "\xef\x81\xad", *kColumns = "\xef\x83\x9b", *kUp = "\xef\x81\xa2",
-                            *kDown = "\xef\x83\x97";
+                            *kDown = "\xef\x83\x97", *kOutline = "\xef\x84\x8c";
 }
 
 }  // namespace splatcut

@@ -219,7 +219,7 @@ void look_buttons(UiContext& ui) {
   gap();
   action_button(ui, Action::kTint, icon::kTint, view.tint);
   ImGui::SameLine(0, 2);
-  action_button(ui, Action::kOutline, "\xef\x84\x8c", view.outline);
+  action_button(ui, Action::kOutline, icon::kOutline, view.outline);
   ImGui::SameLine(0, 2);
   action_button(ui, Action::kHeat, icon::kHeat, view.heat);
 }

@@ -174,10 +174,11 @@ void turntable_dialog(UiContext& ui) {
     ImGui::Checkbox(choice.as == TurntableAs::kPictures ? "Replace the pictures that are there"
                                                         : "Replace the file that is there",
                     &choice.overwrite);
-  const std::string reason = choice.path.empty() ? "Type where they should go"
-                             : exists && !choice.overwrite
-                                 ? "The file exists: allow replacing it, or change the name"
-                                 : "";
+  const std::string reason = choice.path.empty()           ? "Type where they should go"
+                             : !exists || choice.overwrite ? ""
+                             : choice.as == TurntableAs::kPictures
+                                 ? "Pictures are there: allow replacing them, or change the folder"
+                                 : "The file exists: allow replacing it, or change the name";
   const ImVec2 lowest_row = {ImGui::GetCursorPosX(), ImGui::GetWindowHeight() - 42};
   ImGui::SetCursorPos({ImGui::GetWindowWidth() - 122, lowest_row.y});  // Tab comes to it before Cancel
   const bool pressed =

@@ -18,7 +18,7 @@ enum class UnsavedAnswer { kNone, kStay, kGoOn, kSave };
 // saves_work: there is work that can be saved first.
 UnsavedAnswer unsaved_dialog(UiContext& ui, const char* id, bool wanted, const std::string& text,
                              const char* go_on, bool saves_work) {
-  if (!begin_dialog(id, wanted, {430, 150})) return UnsavedAnswer::kNone;
+  if (!begin_dialog(id, wanted, {430, 150}, Turn::kFirst)) return UnsavedAnswer::kNone;
   wrapped_muted(ui, text);
   ImGui::SetCursorPosY(ImGui::GetWindowHeight() - 42);
   const bool stays = plain_button(ui, "Stay", 100) || escape_pressed();

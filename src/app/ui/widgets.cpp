@@ -18,8 +18,21 @@ ImVec4 colour_of(const Rgb8& c) {
   return {static_cast<float>(c[0]) / 255, static_cast<float>(c[1]) / 255, static_cast<float>(c[2]) / 255, 1};
 }
 
-bool begin_dialog(const char* id, bool wanted, const ImVec2& size) {
-  if (wanted && !ImGui::IsPopupOpen(id)) ImGui::OpenPopup(id);
+namespace {
+
+// Whether ImGui shows a dialog other than that one. Menus, lists and pickers are none: they close when a
+// dialog opens.
+bool another_dialog(const char* id) {
+  const ImVector<ImGuiPopupData>& open = GImGui->OpenPopupStack;
+  return !open.empty() && open[0].PopupId != ImGui::GetID(id) && open[0].Window &&
+         (open[0].Window->Flags & ImGuiWindowFlags_Modal) != 0;
+}
+
+}  // namespace
+
+bool begin_dialog(const char* id, bool wanted, const ImVec2& size, Turn turn) {
+  const bool its_turn = turn == Turn::kFirst || !another_dialog(id);
+  if (wanted && its_turn && !ImGui::IsPopupOpen(id)) ImGui::OpenPopup(id);
   const ImVec2 screen = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
   ImGui::SetNextWindowSize({std::min(size.x, screen.x), std::min(size.y, screen.y)});

@@ -29,9 +29,13 @@ bool plain_button(UiContext& ui, const char* label, float width = 0);
 
 void come_nearer_button(UiContext& ui, float width = 0);
 
-// A dialog in the middle of the window, which opens when it is wanted. True while it is shown; EndPopup()
-// ends it then.
-bool begin_dialog(const char* id, bool wanted, const ImVec2& size);
+// What a dialog that is wanted does while another one is shown: it waits for that one's end, or it takes its
+// place. ImGui would let the later one replace the earlier one each frame, and show neither.
+enum class Turn { kAfterOthers, kFirst };
+
+// Begins a dialog in the middle of the window; it opens once it is wanted and has its turn. Returns true
+// while the dialog is shown; the caller ends it with EndPopup() then.
+bool begin_dialog(const char* id, bool wanted, const ImVec2& size, Turn turn = Turn::kAfterOthers);
 
 bool enter_pressed();   // a dialog's default answer, where nothing else takes the key
 bool escape_pressed();  // leaves a dialog; a key that closed the one before says nothing to this one

@@ -4,8 +4,12 @@
 #include <glad/gl.h>
 
 #include <algorithm>
+#include <cfloat>
 #include <chrono>
+#include <new>
 #include <thread>
+
+#include "core/error.h"
 
 namespace splatcut {
 
@@ -99,6 +103,7 @@ void Application::handle_one(const PointerMoved& event) {
 
 void Application::take_now(const PointerMoved& event) {
   pointer_ = event.position_points;
+  left_window_ = !UiRect{{0, 0}, size_points_}.contains(pointer_);
   ImGui::GetIO().MousePos = {pointer_.x, pointer_.y};
   set_modifiers(event.modifiers);
   if (dragging_picture_ || interface_.picture_at(pointer_, studio_))
@@ -120,8 +125,8 @@ void Application::take_now(const PointerButtonChanged& event) {
   if (!event.down) {
     dropped_since_frame_ |= !dragging_picture_;  // what is dragged ends where the pointer is now
     if (dragging_picture_) studio_.pointer_released(in_viewport_px(pointer_), event.button, event.modifiers);
-    dragging_picture_ =
-        std::ranges::any_of(button_down_, [](bool down) { return down; }) && dragging_picture_;
+    dragging_picture_ = button_held() && dragging_picture_;
+    if (left_window_) take(PointerLeft());
     return;
   }
   const bool twice = is_second_click(event);
@@ -129,10 +134,27 @@ void Application::take_now(const PointerButtonChanged& event) {
   if (!interface_.picture_at(pointer_, studio_)) return;
   if (event.button == PointerButton::kLeft && interface_.handle_at(pointer_)) return;
   dragging_picture_ = true;
-  if (twice)
+  if (twice && tool_of(studio_.view().tool).double_click)  // else a stroke may begin where the last one ended
     studio_.pointer_double_clicked(in_viewport_px(pointer_));
   else
     studio_.pointer_pressed(in_viewport_px(pointer_), event.button, event.modifiers);
+}
+
+void Application::handle_one(const PointerLeft& event) {
+  take(event);
+}
+
+// A drag goes on outside of the window. Else nothing lies under the pointer any more.
+void Application::take_now(const PointerLeft&) {
+  left_window_ = true;
+  if (button_held()) return;
+  pointer_ = kNowhere;
+  ImGui::GetIO().MousePos = {-FLT_MAX, -FLT_MAX};
+  studio_.pointer_left();
+}
+
+bool Application::button_held() const {
+  return std::ranges::any_of(button_down_, [](bool down) { return down; });
 }
 
 bool Application::is_second_click(const PointerButtonChanged& press) {
@@ -316,18 +338,40 @@ void Application::build_interface(double seconds, Requests* ask) {
   for (int i = 0; i < 3; ++i)
     ImGui::GetIO().MouseDown[i] = std::exchange(pressed_since_frame_[i], false) || button_down_[i];
   ImTextureID gpu_pictures[2] = {};
-  if (gpu_) {
-    GLint target = 0;  // drawing splats binds others
-    glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &target);
-    const auto textures = gpu_->draw(studio_);
-    for (std::size_t i = 0; i < 2; ++i) gpu_pictures[i] = texture_id(textures[i]);
-    glBindFramebuffer(GL_FRAMEBUFFER, static_cast<GLuint>(target));
-  }
+  if (gpu_) draw_by_gpu(gpu_pictures);
   interface_.state().marked = walk_.mark();
   walk_.before_frame();
   interface_.build(studio_, seconds, &renderer_, gpu_pictures, ask);
   walk_.after_frame();
   take_held_back();
+}
+
+void Application::draw_by_gpu(ImTextureID pictures[2]) {
+  GLint target = 0;  // drawing splats binds others
+  glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &target);
+  try {
+    const auto textures = gpu_->draw(studio_);
+    for (std::size_t i = 0; i < 2; ++i) pictures[i] = texture_id(textures[i]);
+  } catch (const std::exception& error) {
+    go_on_without_gpu(error);
+  }
+  glBindFramebuffer(GL_FRAMEBUFFER, static_cast<GLuint>(target));
+}
+
+// A scene may be larger than what a driver's buffers hold, or than the memory left for copies: it is drawn
+// all the same, and no work is lost.
+void Application::go_on_without_gpu(const std::exception& why) {
+  const auto* known = dynamic_cast<const Error*>(&why);
+  std::string reason = known                                       ? std::string(known->unstopped())
+                       : dynamic_cast<const std::bad_alloc*>(&why) ? "there is not enough memory"
+                                                                   : "its driver failed";
+  reason.resize(std::min(reason.size(), reason.find(". ")));  // what helps is done here
+  gpu_.reset();
+  interface_.state().renderer_line = "CPU renderer (the scene is too large for OpenGL)";
+  studio_.leave_gpu_view(
+      fmt::format("The graphics card cannot draw this scene ({}). The CPU does until the end "
+                  "of the program, slower while the view moves.",
+                  reason));
 }
 
 void Application::draw() {

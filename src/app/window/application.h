@@ -56,6 +56,7 @@ class Application {
  private:
   void handle_one(const PointerMoved& event);
   void handle_one(const PointerButtonChanged& event);
+  void handle_one(const PointerLeft& event);
   void handle_one(const WheelTurned& event);
   void handle_one(const KeyChanged& event);
   void handle_one(const TextTyped& event);
@@ -66,7 +67,7 @@ class Application {
   void set_modifiers(const Modifiers& modifiers);
   // Keys and text for the interface, which looks at what is held once a frame: what follows a key that was
   // pressed and released between two frames waits for the next, and so does the pointer.
-  using HeldEvent = std::variant<KeyChanged, TextTyped, PointerMoved, PointerButtonChanged>;
+  using HeldEvent = std::variant<KeyChanged, TextTyped, PointerMoved, PointerButtonChanged, PointerLeft>;
   void take(const HeldEvent& event);
   void take_held_back();
   bool walks(const KeyChanged& event);  // true: the key was for the walk of Tab alone
@@ -76,10 +77,14 @@ class Application {
   void take_now(const TextTyped& event);
   void take_now(const PointerMoved& event);
   void take_now(const PointerButtonChanged& event);
+  void take_now(const PointerLeft& event);
+  bool button_held() const;
   void choose_renderer(RendererChoice choice);
   void open(const OpenScene& command);  // asks first where work would be lost
   void remember_recent();
   void build_interface(double seconds, Requests* ask);
+  void draw_by_gpu(ImTextureID pictures[2]);
+  void go_on_without_gpu(const std::exception& why);
   bool advance(double seconds, bool draws);
 
   Studio studio_;
@@ -89,7 +94,9 @@ class Application {
   FocusWalk walk_;
   glm::vec2 size_points_{1280, 720};
   float pixels_per_point_ = 1;
-  glm::vec2 pointer_{-1e6f, -1e6f};
+  static constexpr glm::vec2 kNowhere{-1e6f, -1e6f};
+  glm::vec2 pointer_ = kNowhere;
+  bool left_window_ = false;  // the pointer is outside, perhaps with a button that is still held
   bool dragging_picture_ = false;
   bool pressed_since_frame_[3] = {};
   bool key_pressed_since_frame_ = false;

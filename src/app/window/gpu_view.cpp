@@ -1,5 +1,7 @@
 #include "app/window/gpu_view.h"
 
+#include "core/error.h"
+
 namespace splatcut {
 
 namespace {
@@ -18,6 +20,16 @@ SplatStyle style_of(const FrameStyle& style, std::size_t g) {
   if (owner == 0) return {0, 0, 0, 255};
   const Rgb8& c = style.owner_colour[owner];
   return {c[0], c[1], c[2], 255};
+}
+
+// OpenGL says only when asked that a copy had no room.
+void refuse_full_memory() {
+  constexpr int kMostFlags = 8;  // a context without a driver behind it has errors without end
+  for (int i = 0; i < kMostFlags; ++i) {
+    const GLenum error = glGetError();
+    if (error == GL_OUT_OF_MEMORY) throw Error("OpenGL", "the graphics card's memory is full");
+    if (error == GL_NO_ERROR) return;
+  }
 }
 
 }  // namespace
@@ -39,6 +51,7 @@ void GpuView::refresh(Pane* pane, const std::shared_ptr<const GaussianCloud>& cl
                       int index) {
   if (pane->cloud != cloud) {
     pane->splats.upload(*cloud);
+    refuse_full_memory();
     pane->cloud = cloud;
     pane->style = pane->order = 0;
   }

@@ -232,19 +232,27 @@ void Interface::build(const Studio& studio, double seconds, UiRenderer* renderer
                 kFixed, {12, 8}, [&] { side_panel(ui); });
   fixed_panel("status", {{0, size.y - kStatusHeight}, {size.x, size.y}}, p,
               kFixed | ImGuiWindowFlags_NoScrollWithMouse, {12, 3}, [&] { status_bar(ui); });
+  dialogs(ui);
+  if (const auto& m = state_.marked)
+    ImGui::GetForegroundDrawList()->AddRect({m->min.x - 2, m->min.y - 2}, {m->max.x + 2, m->max.y + 2},
+                                            packed(p.text), 7, 0, 2);
+  ImGui::PopFont();
+  ImGui::Render();
+}
+
+// A question about unsaved work is seen at once: pages close for it, and other dialogs, which stay wanted,
+// come back as they were once it is answered. Leaving is asked before opening.
+void Interface::dialogs(UiContext& ui) {
+  if (state_.quit_asked || state_.open_asked) {
+    state_.help_open = state_.settings_open = false;
+    return state_.quit_asked ? quit_dialog(ui) : open_anyway_dialog(ui);
+  }
   file_dialog(ui);
   replace_dialog(ui);
   export_dialog(ui);
   turntable_dialog(ui);
   help_page(ui);
   settings_page(ui);
-  quit_dialog(ui);
-  open_anyway_dialog(ui);
-  if (const auto& m = state_.marked)
-    ImGui::GetForegroundDrawList()->AddRect({m->min.x - 2, m->min.y - 2}, {m->max.x + 2, m->max.y + 2},
-                                            packed(p.text), 7, 0, 2);
-  ImGui::PopFont();
-  ImGui::Render();
 }
 
 void Interface::side_panel(UiContext& ui) {

@@ -41,6 +41,7 @@ class Interface {
   const Theme& theme() const { return theme_; }
 
  private:
+  void dialogs(UiContext& ui);
   void side_panel(UiContext& ui);
   void begin_side_rows(float below) const;
 

@@ -20,8 +20,11 @@ struct PointerButtonChanged {
   PointerButton button = PointerButton::kLeft;
   bool down = false;
   Modifiers modifiers;
-  std::optional<double> time_s = {};  // when the hand did it, any clock; none: at this frame
+  // Time when the window took the event from the system's queue, on any clock; none: at this frame. GLFW does
+  // not say when the hand did it: during a frame, events wait.
+  std::optional<double> time_s = {};
 };
+struct PointerLeft {};  // the pointer left the window
 struct WheelTurned {
   float steps = 0;
   Modifiers modifiers;
@@ -42,7 +45,7 @@ struct FocusChanged {
   bool focused = true;
 };
 
-using UiEvent = std::variant<PointerMoved, PointerButtonChanged, WheelTurned, KeyChanged, TextTyped,
-                             FileDropped, FocusChanged>;
+using UiEvent = std::variant<PointerMoved, PointerButtonChanged, PointerLeft, WheelTurned, KeyChanged,
+                             TextTyped, FileDropped, FocusChanged>;
 
 }  // namespace splatcut

@@ -16,6 +16,7 @@
 #include "app/document/words.h"
 #include "app/window/file_drag.h"
 #include "app/window/frame_log.h"
+#include "app/window/printed_key.h"
 #include "app/window/settings.h"
 #include "app/window/window_place.h"
 #include "core/atomic_file.h"
@@ -169,16 +170,17 @@ Loop& loop_of(GLFWwindow* window) {
   return *static_cast<Loop*>(glfwGetWindowUserPointer(window));
 }
 
-// GLFW names keys by their place on an American keyboard; letters are meant as they are printed.
 int key_of(int code, int scancode) {
-  if (code < 'A' || code > 'Z') return code;
-  const char* name = glfwGetKeyName(code, scancode);
-  return name && name[0] >= 'a' && name[0] <= 'z' && name[1] == 0 ? name[0] - 'a' + 'A' : code;
+  const char* printed = glfwGetKeyName(code, scancode);
+  return key_meant(code, printed ? printed : "");
 }
 
 void install_callbacks(GLFWwindow* window) {
   glfwSetCursorPosCallback(window, [](GLFWwindow* w, double x, double y) {
     loop_of(w).send(PointerMoved{loop_of(w).points(x, y), held_modifiers(w)});
+  });
+  glfwSetCursorEnterCallback(window, [](GLFWwindow* w, int entered) {
+    if (!entered) loop_of(w).send(PointerLeft());
   });
   glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int button, int action, int mods) {
     if (button > GLFW_MOUSE_BUTTON_MIDDLE) return;

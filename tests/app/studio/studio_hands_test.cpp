@@ -181,6 +181,27 @@ TEST_CASE("hands: two presses are a double-click by their own times, however slo
   CHECK(distance() != before);
 }
 
+TEST_CASE("hands: a stroke that begins where the last one ended, soon after it, counts") {
+  Hands hands(false);
+  hands.app.key('5');
+  REQUIRE(hands.studio().view().tool == Tool::kBrush);
+  const glm::vec2 apple = hands.app.screen_of(kOnApple), orange = hands.app.screen_of(kOnOrange);
+  const auto stroke = [&](const glm::vec2& from, const glm::vec2& to, double at_s) {
+    hands.app.move(from);
+    hands.app->handle(PointerButtonChanged{PointerButton::kLeft, true, {}, at_s});
+    for (const float share : {0.25f, 0.5f, 0.75f, 1.0f}) {
+      hands.app.move(glm::mix(from, to, share));
+      hands.app.frames(1);
+    }
+    hands.app->handle(PointerButtonChanged{PointerButton::kLeft, false, {}, at_s + 0.1});
+  };
+  stroke(apple, apple, 10);
+  const std::size_t dabbed = hands.selected();
+  REQUIRE(dabbed > 0);
+  stroke(apple, orange, 10.2);
+  CHECK(hands.selected() > dabbed);
+}
+
 TEST_CASE("hands: a click soon after the display changed is judged in the picture that will show it") {
   Hands hands = hands_on_sample();
   hands.app.key('I');

@@ -357,3 +357,14 @@ TEST_CASE("ui: in a window of 640 by 480 a message keeps its first words") {
   CHECK(shown.substr(0, 20) == whole.substr(0, 20));
   CHECK(shown.size() < whole.size());  // else this shows nothing
 }
+
+TEST_CASE("layout: names in Vietnamese, and accents that stand by themselves, have letters") {
+  HeadlessApp app(640, 480);
+  app.frames(1);
+  const Theme& theme = app->interface().theme();
+  for (const ImFont* font : {theme.body, theme.strong, theme.title})
+    for (const ImWchar letter : {0x111, 0x1a1, 0x1b0, 0x301, 0x323, 0x1ea1, 0x1ed9, 0x1ef9, 0x416, 0x3a9}) {
+      CAPTURE(letter);
+      CHECK(font->FindGlyphNoFallback(letter));
+    }
+}

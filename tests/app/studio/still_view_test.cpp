@@ -1,0 +1,82 @@
+// The view stays under a shape while it is drawn, and a drag ends with its scene.
+#include <doctest/doctest.h>
+
+#include "hands.h"
+
+using namespace splatcut;
+using namespace splatcut::testing;
+
+TEST_CASE("still view: wheel and flight keys wait until a shape is drawn") {
+  Hands hands(false);
+  const glm::vec2 from = hands.app.screen_of(kOnApple), to = hands.app.screen_of(kOnOrange);
+  const auto pose = [&] { return hands.studio().camera().pose(); };
+  const auto try_to_move = [&] {
+    hands.app->handle(WheelTurned{3, {}});
+    hands.app->handle(KeyChanged{'W', true, false, {}});
+    hands.app.frames(10);
+    hands.app->handle(KeyChanged{'W', false, false, {}});
+    REQUIRE(hands.app.settle());
+  };
+  const auto stays = [&] {
+    const CameraPose before = pose();
+    try_to_move();
+    return pose().position_world == before.position_world && pose().distance == before.distance;
+  };
+  for (const int tool : {'5', '6', '7', '3'}) {
+    CAPTURE(tool);
+    hands.app.key(tool);
+    hands.app.move(from);
+    hands.app.press(PointerButton::kLeft);
+    hands.app.move(to);
+    hands.app.frames(1);
+    CHECK(stays());
+    const float brush = hands.studio().view().brush_px;
+    hands.app->handle(WheelTurned{1, {.alt = true}});
+    CHECK(hands.studio().view().brush_px > brush);
+    hands.app.key(key::kEscape);
+    hands.app.release(PointerButton::kLeft);
+    REQUIRE(hands.app.settle());
+  }
+  hands.app.key('8');
+  hands.app.click(from);
+  hands.app.click(to);
+  REQUIRE(hands.studio().tools().at_work());
+  CHECK(stays());
+  hands.app.key(key::kEscape);
+  CHECK_FALSE(stays());
+}
+
+TEST_CASE("still view: a press ends with its scene, and the next one counts") {
+  for (const bool waits : {false, true}) {
+    CAPTURE(waits);
+    Hands hands;
+    const glm::vec2 at = hands.app.screen_of(kOnApple);
+    hands.app.move(at);
+    if (waits) hands.studio().run(Action::kIsolate);  // the events wait until the apple is alone
+    hands.app.press(PointerButton::kLeft);
+    hands.app.frames(1);
+    hands.studio().apply(OpenScene{kSmallSample});
+    if (waits) hands.app.release(PointerButton::kLeft);
+    REQUIRE(hands.app.settle());
+    CHECK_FALSE(hands.studio().tools().dragging());
+    if (!waits) hands.app.release(PointerButton::kLeft);
+    REQUIRE(hands.app.settle());
+    CHECK(hands.studio().document().objects.empty());  // no click in the scene that came
+    hands.app->advance(0.5);
+    hands.app.click(hands.app.screen_of(kOnApple));
+    CHECK(hands.selected() > 0);
+  }
+}
+
+TEST_CASE("still view: a drag of the camera goes on in the scene that comes") {
+  Hands hands(false);
+  const glm::vec2 at = hands.app.screen_of(kOnApple);
+  hands.app.move(at);
+  hands.app.press(PointerButton::kMiddle);
+  hands.app.move(at + glm::vec2(30, 0));
+  hands.studio().apply(OpenScene{kSmallSample});
+  REQUIRE(hands.app.settle());
+  CHECK(hands.studio().tools().dragging());
+  hands.app.release(PointerButton::kMiddle);
+  CHECK_FALSE(hands.studio().tools().dragging());
+}
