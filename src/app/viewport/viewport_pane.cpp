@@ -323,9 +323,13 @@ std::vector<UiRect> viewport_pane(UiContext& ui, const UiRect& area, ImTextureID
   const int panes = studio.viewport().panes();
   const float pane_width = area.size().x / static_cast<float>(panes);
   const FrameResult* picture = studio.viewport().picture();
+  const auto rect_of = [&](int pane) -> UiRect {
+    const float left = area.min.x + pane_width * static_cast<float>(pane);
+    return {{left, area.min.y}, {left + pane_width, area.max.y}};
+  };
   for (int i = 0; i < panes; ++i) {
-    const ImVec2 from = {area.min.x + pane_width * static_cast<float>(i), area.min.y};
-    const ImVec2 to = {from.x + pane_width, area.max.y};
+    const UiRect of_pane = rect_of(i);
+    const ImVec2 from = vec(of_pane.min), to = vec(of_pane.max);
     const auto pane = static_cast<std::size_t>(i);
     if (gpu_picture[i])
       list.AddImage(gpu_picture[i], from, to);
@@ -333,7 +337,6 @@ std::vector<UiRect> viewport_pane(UiContext& ui, const UiRect& area, ImTextureID
       list.AddImage(
           ui.renderer.texture(kPaneKey + pane, studio.viewport().picture_serial(), picture->pictures[pane]),
           from, to);
-    const UiRect of_pane = {{from.x, from.y}, {to.x, to.y}};
     if (!gpu_picture[i] && !picture) coming_label(ui, of_pane, studio.coming());
     ImGui::PushClipRect(from, to, true);
     draw_ground_grid(ui, of_pane, i);
@@ -354,11 +357,17 @@ std::vector<UiRect> viewport_pane(UiContext& ui, const UiRect& area, ImTextureID
   draw_sizes(ui, area, bar);
   draw_strokes(ui, area);
   ImGui::PopClipRect();
+  // A volume stands in the scene, whichever pane shows that; what is drawn on a picture stays there.
+  const bool volume = studio.overlay().shape == ToolOverlay::Shape::kCircle;
+  for (int i = 0; i < panes; ++i) {
+    if (!volume && i != studio.viewport().pressed_pane()) continue;
+    const UiRect of_pane = rect_of(i);
+    ImGui::PushClipRect(vec(of_pane.min), vec(of_pane.max), true);
+    draw_tool_shape(ui, of_pane);
+    draw_points(ui, of_pane);
+    ImGui::PopClipRect();
+  }
   ImGui::PushClipRect(vec(area.min), vec(area.max), true);
-  draw_tool_shape(
-      ui,
-      {area.min + glm::vec2(pane_width * static_cast<float>(studio.viewport().drag_pane()), 0), area.max});
-  draw_points(ui, area);
   draw_brush_ring(ui, area);
   draw_looking(ui, area);
   if (!studio.cursor_px()) draw_cursor_sign(ui, area);

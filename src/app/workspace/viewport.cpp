@@ -349,10 +349,10 @@ RasterOutput Viewport::drawn(const Camera& camera, const PixelRect& part, const 
   return rasterize(*ws_.scene->cloud, camera, options);
 }
 
-std::optional<float> Viewport::depth_on_screen(const glm::vec2& pixel) const {
+std::optional<float> Viewport::depth_on_screen(const glm::vec2& pixel, int pane) const {
   if (!picture_ || picture_->frames.empty() || picture_->scene != ws_.scene->serial) return {};
-  const auto pane = std::min(static_cast<std::size_t>(pressed_pane()), picture_->frames.size() - 1);
-  const Frame& frame = *picture_->frames[pane];
+  const Frame& frame =
+      *picture_->frames[std::min(static_cast<std::size_t>(pane), picture_->frames.size() - 1)];
   const Image<float>& depth = frame.depth;
   const Camera camera = pane_camera();
   const glm::vec2 at = pixel / glm::vec2(camera.width_px, camera.height_px);
@@ -365,14 +365,13 @@ std::optional<float> Viewport::depth_on_screen(const glm::vec2& pixel) const {
   return z > 0 ? std::optional(z) : std::nullopt;
 }
 
-ToolContext Viewport::tool_context(const glm::vec2& pixel) {
-  const int pane = pane_at(pixel);
+ToolContext Viewport::tool_context(int pane) {
   return {camera_,
           ws_.view,
           pane_camera(),
           pixels_per_point_,
           [this](const glm::vec2& at) { return pick(at); },
-          [this](const glm::vec2& at) { return depth_on_screen(at); },
+          [this, pane](const glm::vec2& at) { return depth_on_screen(at, pane); },
           [this, pane] { return seen(pane); },
           [this](const glm::vec2& at, SeedLabel label) -> std::optional<RemoveStroke> {
             const StrokeMark* mark = mark_at(at);

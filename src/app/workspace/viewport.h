@@ -48,10 +48,8 @@ class Viewport {
   Camera pane_camera() const;  // camera of each pane: two panes show the same view
   int panes() const { return std::max(1, styles_.panes); }  // number of panes that are shown
   int pane_at(const glm::vec2& pixel) const;                // pane under the pixel; during a drag, the drag's
-  // Pane in which a drag goes on; 1 is the right one.
-  int drag_pane() const { return panes() == 2 && ws_.tools.dragging() ? pressed_pane_ : 0; }
   void press_in(int pane) { pressed_pane_ = pane; }
-  // Pane in which a button was pressed last: the one that the user works in.
+  // Pane in which a button was pressed last: the one that the user works in. 1 is the right one.
   int pressed_pane() const { return panes() == 2 ? pressed_pane_ : 0; }
   glm::vec2 in_pane(const glm::vec2& pixel) const;  // position within the pane that pane_at() names
   float pixels_per_point() const { return pixels_per_point_; }
@@ -115,10 +113,10 @@ class Viewport {
   // Opacity and depth of a part of the picture that any camera shows of the visible Gaussians.
   RasterOutput drawn(const Camera& camera, const PixelRect& part, const Flags& visible) const;
   DrawnPart drawn_part() const;  // the same, for hits_of()
-  // Camera z of the surface under a pixel, scene units, from the last picture; none: unknown. While the view
-  // moves, the picture lags behind, and so does the answer.
-  std::optional<float> depth_on_screen(const glm::vec2& pixel) const;
-  ToolContext tool_context(const glm::vec2& pixel);
+  // Camera z of the surface under a pixel of a pane, scene units, from the last picture; none: unknown. While
+  // the view moves, the picture lags behind, and so does the answer.
+  std::optional<float> depth_on_screen(const glm::vec2& pixel, int pane) const;
+  ToolContext tool_context(int pane);  // for a tool that is used in that pane
   // Marks of the active object's clicks, in the pixels of the first pane. mark_at(): the one under a pixel;
   // null: none is, or there are two panes.
   const std::vector<StrokeMark>& marks() const { return marks_; }
