@@ -307,11 +307,22 @@ std::optional<UiRect> first_run_hint(UiContext& ui, const UiRect& area) {
   return UiRect{{at.x, at.y}, {at.x + size.x, at.y + size.y}};
 }
 
+// Rings and centres that no pane shows go: they hold the whole scene of which they were made.
+void forget_unshown(const UiContext& ui) {
+  const Studio& studio = ui.studio;
+  const int panes = studio.scene() ? studio.viewport().panes() : 0;
+  for (int i = 0; i < 2; ++i) {
+    if (i >= panes || !studio.view().rings) ui.state.rings[i] = {};
+    if (i >= panes || !studio.view().centres) ui.state.centres[i] = {};
+  }
+}
+
 }  // namespace
 
 std::vector<UiRect> viewport_pane(UiContext& ui, const UiRect& area, ImTextureID gpu_picture[2]) {
   std::vector<UiRect> covered;
   ui.state.badges.clear();
+  forget_unshown(ui);
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const Studio& studio = ui.studio;
   list.AddRectFilled(vec(area.min), vec(area.max), packed(ui.theme.colour.panel_low));

@@ -35,6 +35,29 @@ void GpuView::Sorted::follow(const std::shared_ptr<const GaussianCloud>& wanted,
   }
 }
 
+void GpuView::Sorted::forget() {
+  sorter.take();
+  cloud.reset();
+  order.reset();
+}
+
+// Each pane holds its cloud, which is as large as the scene, or is that of a scene before.
+void GpuView::forget_unshown(const Studio& studio) {
+  const int panes = studio.scene() ? studio.viewport().panes() : 0;
+  const auto stands_in = [&](int i) { return studio.viewport().clean(i) != nullptr; };
+  if (panes == 0 || (!stands_in(0) && !stands_in(1))) {
+    clean_.reset();
+    clean_order_.forget();
+  }
+  const auto of_scene = [&](const std::shared_ptr<const GaussianCloud>& cloud) {
+    return panes > 0 && cloud == studio.scene()->cloud;
+  };
+  for (int i = 0; i < 2; ++i)
+    if (panes_[i] && (i >= panes || (i == 1 && stands_in(i)) || !of_scene(panes_[i]->cloud)))
+      panes_[i].reset();
+  if (!of_scene(scene_order_.cloud)) scene_order_.forget();
+}
+
 void GpuView::refresh(Pane* pane, const std::shared_ptr<const GaussianCloud>& cloud, const Studio& studio,
                       int index) {
   if (pane->cloud != cloud) {
@@ -62,12 +85,7 @@ void GpuView::refresh(Pane* pane, const std::shared_ptr<const GaussianCloud>& cl
 
 std::array<GLuint, 2> GpuView::draw(const Studio& studio) {
   std::array<GLuint, 2> textures{};
-  const auto stands_in = [&](int i) { return studio.viewport().clean(i) != nullptr; };
-  if (!studio.scene() || (!stands_in(0) && !stands_in(1))) {  // as large as the scene may be
-    clean_.reset();
-    clean_order_.cloud.reset();
-    clean_order_.order.reset();
-  }
+  forget_unshown(studio);
   if (!studio.scene()) return textures;
   const Camera camera = studio.viewport().pane_camera();
   const DrawLimits limits = studio.viewport().draw_limits();
