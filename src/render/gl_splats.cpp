@@ -76,7 +76,7 @@ void GlSplats::upload(const GaussianCloud& cloud) {
   geometry_.upload(GL_RGBA32F, std::as_bytes(std::span(geometry)), GL_STATIC_DRAW);
   const std::vector<float> colours = colours_of(cloud, sh_texels_);
   colours_.upload(GL_RGBA32F, std::as_bytes(std::span(colours)), GL_STATIC_DRAW);
-  upload_styles(std::vector<SplatStyle>(gaussians_, SplatStyle{0, 0, 0, 255}));
+  upload_styles(std::vector<SplatStyle>(gaussians_, SplatStyle{0, 0, 0, kShownBit}));
 }
 
 void GlSplats::upload_styles(std::span<const SplatStyle> styles) {
@@ -91,7 +91,7 @@ void GlSplats::upload_order(std::span<const std::uint32_t> back_to_front) {
 }
 
 void GlSplats::draw(const Camera& camera, const SplatDrawOptions& options) {
-  const GLenum formats[] = {GL_RGBA32F, GL_RGBA32F};
+  const GLenum formats[] = {GL_RGBA32F, GL_RGBA32F, GL_RGBA32F};
   float_target_.resize(camera.width_px, camera.height_px, formats);
   float_target_.bind();
   glDisable(GL_SCISSOR_TEST);
@@ -140,17 +140,20 @@ void GlSplats::resolve(const ResolveOptions& options) {
   glDisable(GL_BLEND);
   const GlProgram& p = resolve_program_;
   p.use();
-  for (int unit = 0; unit < 2; ++unit) {
+  for (int unit = 0; unit < 3; ++unit) {
     glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
     glBindTexture(GL_TEXTURE_2D, float_target_.texture(unit));
   }
   p.set("picture", 0);
   p.set("selected", 1);
+  p.set("marked", 2);
   p.set("background", options.background);
   p.set("checker_px", options.checker_px);
   p.set("tint_strength", options.tint_strength);
   p.set("tint_shaded", options.tint_shaded ? 1 : 0);
   p.set("outline_strength", options.outline_strength);
+  p.set("highlighted", options.highlighted ? 1 : 0);
+  p.set("highlight_colour", options.highlight_colour);
   glBindVertexArray(vertex_array_.id());
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }

@@ -5,19 +5,17 @@ namespace splatcut {
 namespace {
 
 SplatStyle style_of(const FrameStyle& style, std::size_t g) {
-  if (style.highlight && (*style.highlight)[g]) {
-    const Rgb8& c = style.highlight_colour;
-    return {c[0], c[1], c[2], 255};
-  }
+  const auto bits =
+      static_cast<std::uint8_t>(kShownBit | (style.highlight && (*style.highlight)[g] ? kHighlightedBit : 0));
   if (style.heat) {
     const glm::vec3 c = heat_colour((*style.heat)[g]) * 255.0f;
     return {static_cast<std::uint8_t>(c.r), static_cast<std::uint8_t>(c.g), static_cast<std::uint8_t>(c.b),
-            255};
+            static_cast<std::uint8_t>(bits | selection_bits(1))};
   }
   const std::uint8_t owner = style.owner ? (*style.owner)[g] : 0;
-  if (owner == 0) return {0, 0, 0, 255};
+  if (owner == 0) return {0, 0, 0, bits};
   const Rgb8& c = style.owner_colour[owner];
-  return {c[0], c[1], c[2], 255};
+  return {c[0], c[1], c[2], static_cast<std::uint8_t>(bits | selection_bits(owner))};
 }
 
 }  // namespace
@@ -74,7 +72,7 @@ void GpuView::refresh(Pane* pane, const std::shared_ptr<const GaussianCloud>& cl
   for (std::size_t i = 0; i < styles.size(); ++i) {
     const std::size_t g = clean ? clean->gaussian[i] : i;
     if (g == kNoGaussian) {
-      styles[i] = {0, 0, 0, 255};
+      styles[i] = {0, 0, 0, kShownBit};
       continue;
     }
     styles[i] = style_of(style, g);
@@ -112,7 +110,11 @@ std::array<GLuint, 2> GpuView::draw(const Studio& studio) {
                                      : style.tint ? kTintStrength
                                                   : 0,
                     .tint_shaded = !style.heat,
-                    .outline_strength = style.outline && !style.heat ? kOutlineStrength : 0});
+                    .outline_strength = style.outline && !style.heat ? kOutlineStrength : 0,
+                    .highlighted = style.highlight != nullptr,
+                    .highlight_colour = glm::vec3(style.highlight_colour[0], style.highlight_colour[1],
+                                                  style.highlight_colour[2]) /
+                                        255.0f});
     textures[static_cast<std::size_t>(i)] = splats.picture_texture();
   }
   return textures;
