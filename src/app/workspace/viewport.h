@@ -76,7 +76,8 @@ class Viewport {
   }
   // Labels of the active object, as they are shown; null: there are none yet.
   const Flags& active_labels() const { return styles_.active_labels; }
-  Flags seen(int pane) const;  // Gaussians that the pane shows now; null: all
+  Flags seen(
+      int pane) const;  // Gaussians that the pane shows now; null: all. The same array for the same view
   void show_floaters(bool shown);
   bool floaters_shown() const { return floaters_shown_; }
   void show_range(const std::optional<SelectRangeOrColour>& range);  // outlines it; none: no outline
@@ -129,6 +130,8 @@ class Viewport {
   void request_picture();
   void take_picture();
   void refresh_marks();
+  // Of the visible Gaussians, those within the far plane of the camera.
+  Flags within_limits(const Camera& camera, const Flags& visible) const;
   bool hides(const glm::vec3& point_world) const;  // the last picture shows something before it
 
   Workspace& ws_;
@@ -140,6 +143,14 @@ class Viewport {
   StrokeMarks stroke_marks_;
   std::vector<StrokeMark> marks_;
   DrawLimits marked_within_;
+  std::optional<double> limits_changed_s_;  // time of a change that the marks do not know of yet
+  struct WithinLimits {                     // the last answer of within_limits()
+    std::weak_ptr<const GaussianCloud> cloud;
+    Camera camera;
+    float far_plane = 0;
+    Flags visible, within;
+  };
+  mutable std::optional<WithinLimits> within_;
   int pressed_pane_ = 0;  // pane in which a button was pressed last
 
   Styles styles_;

@@ -193,6 +193,22 @@ TEST_CASE("hands: floaters are shown as long as there are any") {
   CHECK_FALSE(studio.viewport().floaters_shown());
 }
 
+TEST_CASE("far limit: what is within it is looked for once a view") {
+  HeadlessApp app(kSmallWidth, kSmallHeight);
+  app.open(kSmallSample);
+  REQUIRE(app.settle());
+  ViewState view = app.studio().view();
+  view.far_share = 0.5f;
+  app.studio().apply(SetView{view});
+  REQUIRE(app.settle());
+  const Flags within = app.studio().viewport().seen(0);
+  REQUIRE(within);
+  CHECK(app.studio().viewport().seen(0) == within);
+  view.far_share = 0.4f;
+  app.studio().apply(SetView{view});
+  CHECK(app.studio().viewport().seen(0) != within);
+}
+
 TEST_CASE("far limit: what lies beyond is neither drawn nor picked nor selected") {
   HeadlessApp app(kSmallWidth, kSmallHeight);
   opened(app);
