@@ -11,6 +11,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <memory>
 #include <span>
 
 #include "core/image.h"
@@ -51,7 +52,8 @@ struct ResolveOptions {
 class GlSplats {
  public:
   GlSplats();
-  void upload(const GaussianCloud& cloud);                 // shows all
+  void upload(const GaussianCloud& cloud);  // shows all
+  void share(const GlSplats& other);        // draws the cloud that the other holds, with styles of its own
   void upload_styles(std::span<const SplatStyle> styles);  // size of the cloud
   void upload_order(std::span<const std::uint32_t> back_to_front);
 
@@ -71,11 +73,16 @@ class GlSplats {
   GlProgram splat_program_, resolve_program_;
   GlVertexArray vertex_array_;
   GlBuffer indices_;
-  TexelBuffer order_, geometry_, colours_, styles_;
+  struct Cloud {
+    TexelBuffer geometry, colours;
+    std::size_t gaussians = 0;
+    int sh_degree = 0, sh_texels = 1;
+    bool antialiased = false;
+  };
+  std::shared_ptr<const Cloud> cloud_;
+  TexelBuffer order_, styles_;
   RenderTarget float_target_, resolved_;
-  std::size_t gaussians_ = 0, ordered_ = 0;
-  int sh_degree_ = 0, sh_texels_ = 1;
-  bool antialiased_ = false;  // of the cloud
+  std::size_t ordered_ = 0;
 };
 
 }  // namespace splatcut

@@ -1,5 +1,9 @@
 #include "app/window/gpu_view.h"
 
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+
 namespace splatcut {
 
 namespace {
@@ -59,7 +63,11 @@ void GpuView::forget_unshown(const Studio& studio) {
 void GpuView::refresh(Pane* pane, const std::shared_ptr<const GaussianCloud>& cloud, const Studio& studio,
                       int index) {
   if (pane->cloud != cloud) {
-    pane->splats.upload(*cloud);
+    const auto same = std::ranges::find_if(panes_, [&](const auto& p) { return p && p->cloud == cloud; });
+    if (same != std::end(panes_))
+      pane->splats.share((*same)->splats);
+    else
+      pane->splats.upload(*cloud);
     pane->cloud = cloud;
     pane->style = pane->order = 0;
   }
@@ -69,15 +77,15 @@ void GpuView::refresh(Pane* pane, const std::shared_ptr<const GaussianCloud>& cl
   const Flags shown = studio.viewport().shown(index);
   const auto clean = studio.viewport().clean(index);
   std::vector<SplatStyle> styles(cloud->size());
-  for (std::size_t i = 0; i < styles.size(); ++i) {
+  tbb::parallel_for(std::size_t{0}, styles.size(), [&](std::size_t i) {
     const std::size_t g = clean ? clean->gaussian[i] : i;
     if (g == kNoGaussian) {
       styles[i] = {0, 0, 0, kShownBit};
-      continue;
+      return;
     }
     styles[i] = style_of(style, g);
     if (shown && !(*shown)[g]) styles[i][3] = 0;
-  }
+  });
   pane->splats.upload_styles(styles);
 }
 
