@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cstdlib>
 #include <functional>
@@ -282,6 +283,29 @@ TEST_CASE("frames: OpenGL tints, outlines and highlights what the CPU does, what
   agree("the outline of a dark object", dark_object, shows(false, true));
   agree("the line between two objects", touching_objects, shows(false, true));
   agree("a preview without tint and outline", no_object, shows_range);
+}
+
+TEST_CASE("frames: the sorter of the splats wakes the window when a new order is there") {
+  std::atomic<int> wakes = 0;
+  ApplicationOptions options = with_kept_scenes();
+  options.renderer = RendererChoice::kGl;
+  options.studio.wake = [&] { ++wakes; };
+  HeadlessApp app(760, 420, 1, options);
+  app.open(kSmallSample);
+  REQUIRE(app.settle());
+  app.wait_for_message_to_go();
+  app.frames(3);
+  const glm::vec2 at = app->interface().viewport().min + glm::vec2(200, 200);
+  app.move(at);
+  app.press(PointerButton::kMiddle);
+  app.frames(1);
+  const int before = wakes;  // while the view moves, no picture is asked for
+  app.move(at + glm::vec2(12, 0));
+  app.frames(1);
+  for (int waited_ms = 0; waited_ms < 5000 && wakes == before; ++waited_ms)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  CHECK(wakes > before);
+  app.release(PointerButton::kMiddle);
 }
 
 TEST_CASE("frames: HiDPI") {
