@@ -4,10 +4,12 @@ flat in vec3 conic;
 flat in vec3 colour;
 flat in float opacity;
 flat in vec3 selection;
+flat in vec3 mark;
 flat in vec2 mean_px;
 
 layout(location = 0) out vec4 picture;
 layout(location = 1) out vec4 selected;
+layout(location = 2) out vec4 marked;
 
 const float kAlphaMin = 1.0 / 255.0;
 const float kAlphaMax = 0.99;
@@ -19,4 +21,5 @@ void main() {
   if (alpha < kAlphaMin) discard;
   picture = vec4(colour * alpha, alpha);
   selected = vec4(selection * alpha, alpha);
+  marked = vec4(mark * alpha, alpha);
 }

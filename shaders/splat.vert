@@ -4,7 +4,7 @@
 uniform usamplerBuffer order;        // back to front: index of the Gaussian
 uniform samplerBuffer geometry;      // 3 texels: position, opacity | Sigma xx xy xz yy | Sigma yz zz, -, -
 uniform samplerBuffer colours;       // sh_texels texels: f_dc and the SH coefficients, rgb interleaved
-uniform samplerBuffer styles;        // rgb: colour of the selection it belongs to (0 none), a: 0 hides it
+uniform samplerBuffer styles;        // SplatStyle: rgb: colour of its selection, a: bits
 uniform int sh_degree;
 uniform int sh_texels;
 uniform mat3 camera_from_world_rotation;
@@ -26,6 +26,7 @@ flat out vec3 conic;
 flat out vec3 colour;
 flat out float opacity;
 flat out vec3 selection;
+flat out vec3 mark;  // 1 where it belongs to a selection, 1 where it is highlighted, number of the selection
 flat out vec2 mean_px;
 
 const float kShC1 = 0.4886025119029199;
@@ -81,16 +82,17 @@ float antialiased_share(vec3 sharp, vec3 blurred) {
 
 void main() {
   gl_Position = vec4(2.0, 2.0, 2.0, 1.0);  // outside: nothing is drawn
-  conic = colour = selection = vec3(0.0);
+  conic = colour = selection = mark = vec3(0.0);
   opacity = 0.0;
   mean_px = vec2(0.0);
   int g = int(texelFetch(order, gl_VertexID / 4).r);
   vec4 style = texelFetch(styles, g);
+  int bits = int(255.0 * style.a + 0.5), number = bits >> 2;
   vec4 point = texelFetch(geometry, 3 * g);
   vec4 sigma0 = texelFetch(geometry, 3 * g + 1);
   vec4 sigma1 = texelFetch(geometry, 3 * g + 2);
   vec3 point_camera = camera_from_world_rotation * point.xyz + camera_from_world_translation;
-  if (style.a == 0.0 || point.w < kAlphaMin || !(point_camera.z >= near_plane) || point_camera.z > far_plane) return;
+  if ((bits & 1) == 0 || point.w < kAlphaMin || !(point_camera.z >= near_plane) || point_camera.z > far_plane) return;
   mat3 sigma_world = mat3(sigma0.x, sigma0.y, sigma0.z, sigma0.y, sigma0.w, sigma1.x, sigma0.z, sigma1.x, sigma1.y);
   vec3 sharp = covariance_px2(point_camera, sigma_world);
   vec3 s = sharp + vec3(low_pass_px2, 0.0, low_pass_px2);
@@ -102,7 +104,8 @@ void main() {
   conic = vec3(s.z, -s.y, s.x) / det;
   vec2 extent_px = sqrt(2.0 * log(opacity / kAlphaMin) * s.xz);
   if (any(lessThan(mean_px + extent_px, vec2(0.0))) || any(greaterThan(mean_px - extent_px, size_px))) return;
-  selection = style.rgb;
+  selection = number > 0 ? style.rgb : vec3(0.0);
+  mark = vec3(number > 0 ? 1.0 : 0.0, (bits & 2) != 0 ? 1.0 : 0.0, float(number) / 63.0);
   colour = sh_colour(g, normalize(point.xyz - eye_world));
   vec2 corner = vec2(gl_VertexID & 1, (gl_VertexID >> 1) & 1) * 2.0 - 1.0;
   vec2 pixel = mean_px + corner * extent_px;

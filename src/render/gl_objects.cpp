@@ -112,11 +112,11 @@ void PictureTexture::upload(std::span<const std::byte> rgba, int width, int heig
 }
 
 void RenderTarget::resize(int width, int height, std::span<const GLenum> formats) {
-  assert(!formats.empty() && formats.size() <= 2);
+  assert(!formats.empty() && formats.size() <= 3);
   if (width == width_ && height == height_) return;
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.id());
   glActiveTexture(GL_TEXTURE0);
-  const GLenum attachments[] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
+  const GLenum attachments[] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1, GL_COLOR_ATTACHMENT2};
   for (std::size_t i = 0; i < formats.size(); ++i) {
     glBindTexture(GL_TEXTURE_2D, textures_[i].id());
     glTexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(formats[i]), width, height, 0, GL_RGBA, GL_FLOAT,

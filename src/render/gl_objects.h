@@ -104,7 +104,7 @@ class PictureTexture {
 // Colour attachments of one size.
 class RenderTarget {
  public:
-  // formats: one sized internal format for each attachment, at most 2. Throws Error where the driver refuses.
+  // formats: one sized internal format for each attachment, at most 3. Throws Error where the driver refuses.
   void resize(int width, int height, std::span<const GLenum> formats);
   void bind() const;  // and sets the viewport
   GLuint texture(int attachment) const { return textures_[attachment].id(); }
@@ -113,7 +113,7 @@ class RenderTarget {
 
  private:
   GlFramebuffer framebuffer_;
-  GlTexture textures_[2];
+  GlTexture textures_[3];
   int width_ = 0, height_ = 0;
 };
 

@@ -66,32 +66,40 @@ GlSplats::GlSplats()
 }
 
 void GlSplats::upload(const GaussianCloud& cloud) {
-  gaussians_ = cloud.size();
-  ordered_ = 0;
-  sh_degree_ = cloud.sh_degree;
-  antialiased_ = cloud.antialiased;
-  sh_texels_ = (3 * (1 + sh_rest_coefficients(cloud.sh_degree)) + 3) / 4;
-  check_texels(gaussians_ * static_cast<std::size_t>(std::max(3, sh_texels_)), gaussians_);
+  const auto made = std::make_shared<Cloud>();
+  made->gaussians = cloud.size();
+  made->sh_degree = cloud.sh_degree;
+  made->antialiased = cloud.antialiased;
+  made->sh_texels = (3 * (1 + sh_rest_coefficients(cloud.sh_degree)) + 3) / 4;
+  check_texels(made->gaussians * static_cast<std::size_t>(std::max(3, made->sh_texels)), made->gaussians);
   const std::vector<glm::vec4> geometry = geometry_of(cloud);
-  geometry_.upload(GL_RGBA32F, std::as_bytes(std::span(geometry)), GL_STATIC_DRAW);
-  const std::vector<float> colours = colours_of(cloud, sh_texels_);
-  colours_.upload(GL_RGBA32F, std::as_bytes(std::span(colours)), GL_STATIC_DRAW);
-  upload_styles(std::vector<SplatStyle>(gaussians_, SplatStyle{0, 0, 0, 255}));
+  made->geometry.upload(GL_RGBA32F, std::as_bytes(std::span(geometry)), GL_STATIC_DRAW);
+  const std::vector<float> colours = colours_of(cloud, made->sh_texels);
+  made->colours.upload(GL_RGBA32F, std::as_bytes(std::span(colours)), GL_STATIC_DRAW);
+  cloud_ = made;
+  ordered_ = 0;
+  upload_styles(std::vector<SplatStyle>(cloud.size(), SplatStyle{0, 0, 0, kShownBit}));
+}
+
+void GlSplats::share(const GlSplats& other) {
+  cloud_ = other.cloud_;
+  ordered_ = 0;
+  if (cloud_) upload_styles(std::vector<SplatStyle>(cloud_->gaussians, SplatStyle{0, 0, 0, kShownBit}));
 }
 
 void GlSplats::upload_styles(std::span<const SplatStyle> styles) {
-  assert(styles.size() == gaussians_);
+  assert(cloud_ && styles.size() == cloud_->gaussians);
   styles_.upload(GL_RGBA8, std::as_bytes(styles), GL_DYNAMIC_DRAW);
 }
 
 void GlSplats::upload_order(std::span<const std::uint32_t> back_to_front) {
-  assert(back_to_front.size() <= gaussians_);
+  assert(cloud_ && back_to_front.size() <= cloud_->gaussians);
   ordered_ = back_to_front.size();
   order_.upload(GL_R32UI, std::as_bytes(back_to_front), GL_STREAM_DRAW);
 }
 
 void GlSplats::draw(const Camera& camera, const SplatDrawOptions& options) {
-  const GLenum formats[] = {GL_RGBA32F, GL_RGBA32F};
+  const GLenum formats[] = {GL_RGBA32F, GL_RGBA32F, GL_RGBA32F};
   float_target_.resize(camera.width_px, camera.height_px, formats);
   float_target_.bind();
   glDisable(GL_SCISSOR_TEST);
@@ -110,11 +118,11 @@ void GlSplats::draw(const Camera& camera, const SplatDrawOptions& options) {
   p.set("colours", 2);
   p.set("styles", 3);
   order_.bind(0);
-  geometry_.bind(1);
-  colours_.bind(2);
+  cloud_->geometry.bind(1);
+  cloud_->colours.bind(2);
   styles_.bind(3);
-  p.set("sh_degree", sh_degree_);
-  p.set("sh_texels", sh_texels_);
+  p.set("sh_degree", cloud_->sh_degree);
+  p.set("sh_texels", cloud_->sh_texels);
   p.set("camera_from_world_rotation", camera.camera_from_world_rotation);
   p.set("camera_from_world_translation", camera.camera_from_world_translation);
   p.set("eye_world", camera.centre_world());
@@ -124,7 +132,7 @@ void GlSplats::draw(const Camera& camera, const SplatDrawOptions& options) {
   p.set("near_plane", options.near_plane);
   p.set("far_plane", options.far_plane);
   p.set("low_pass_px2", options.low_pass_px2);
-  p.set("antialiased", antialiased_ ? 1 : 0);
+  p.set("antialiased", cloud_->antialiased ? 1 : 0);
   glBindVertexArray(vertex_array_.id());
   for (std::size_t first = 0; first < ordered_; first += kBatch) {
     const auto count = static_cast<GLsizei>(6 * std::min<std::size_t>(kBatch, ordered_ - first));
@@ -140,17 +148,20 @@ void GlSplats::resolve(const ResolveOptions& options) {
   glDisable(GL_BLEND);
   const GlProgram& p = resolve_program_;
   p.use();
-  for (int unit = 0; unit < 2; ++unit) {
+  for (int unit = 0; unit < 3; ++unit) {
     glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
     glBindTexture(GL_TEXTURE_2D, float_target_.texture(unit));
   }
   p.set("picture", 0);
   p.set("selected", 1);
+  p.set("marked", 2);
   p.set("background", options.background);
   p.set("checker_px", options.checker_px);
   p.set("tint_strength", options.tint_strength);
   p.set("tint_shaded", options.tint_shaded ? 1 : 0);
   p.set("outline_strength", options.outline_strength);
+  p.set("highlighted", options.highlighted ? 1 : 0);
+  p.set("highlight_colour", options.highlight_colour);
   glBindVertexArray(vertex_array_.id());
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }

@@ -1,16 +1,17 @@
 // Draws a Gaussian cloud with OpenGL 3.3: EWA projection and SH in the vertex shader, blending back to front
 // into 32-bit float targets (8-bit targets lose up to 100/255 on real scenes; 32F costs what 16F costs).
 //
-// In: cloud, back-to-front order, camera. Out: premultiplied colour, and the selection colours blended the
-// same way. The maths is that of scene/raster/splat_math.h; pictures differ from rasterize() by what T < 1e-4
-// still lets through. Source: Kerbl et al. 2023; Zwicker et al. 2001. Cost: 4 vertices a Gaussian, bound by
-// fill on a software GL. Errors: Error where the scene is larger than the driver's texel buffers. Main thread
-// only, context current.
+// In: cloud, back-to-front order, camera. Out: premultiplied colour; the selections' colours and
+// shares of each pixel, blended the same way. The maths is that of scene/raster/splat_math.h; pictures differ
+// from rasterize() by what T < 1e-4 still lets through. Source: Kerbl et al. 2023; Zwicker et al. 2001. Cost:
+// 4 vertices a Gaussian, bound by fill on a software GL. Errors: Error where the scene is larger than the
+// driver's texel buffers. Main thread only, context current.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <memory>
 #include <span>
 
 #include "core/image.h"
@@ -21,8 +22,16 @@
 
 namespace splatcut {
 
-// Per Gaussian: the colour of the selection it belongs to (0,0,0: none), and 0 to hide or 255 to show it.
+// Per Gaussian: the colour of the selection it belongs to, and bits: whether it shows, whether it is
+// highlighted, and above them the number of the selection, 0: none.
 using SplatStyle = std::array<std::uint8_t, 4>;
+inline constexpr std::uint8_t kShownBit = 1, kHighlightedBit = 2;
+inline constexpr unsigned kSelectionNumbers = 63;  // more selections share numbers
+
+// Bits of what belongs to the n-th selection, counted from 1; of none: 0.
+constexpr std::uint8_t selection_bits(unsigned n) {
+  return n == 0 ? std::uint8_t{0} : static_cast<std::uint8_t>((1 + (n - 1) % kSelectionNumbers) << 2);
+}
 
 struct SplatDrawOptions {
   float near_plane = 0.2f;  // camera z, scene units
@@ -36,12 +45,15 @@ struct ResolveOptions {
   float tint_strength = 0;     // [0, 1]: how much of the selection colour covers the picture
   bool tint_shaded = false;    // the tint keeps the picture's light and dark
   float outline_strength = 0;  // [0, 1]
+  bool highlighted = false;    // what has the bit is washed and outlined
+  glm::vec3 highlight_colour{1};
 };
 
 class GlSplats {
  public:
   GlSplats();
-  void upload(const GaussianCloud& cloud);                 // shows all
+  void upload(const GaussianCloud& cloud);  // shows all
+  void share(const GlSplats& other);        // draws the cloud that the other holds, with styles of its own
   void upload_styles(std::span<const SplatStyle> styles);  // size of the cloud
   void upload_order(std::span<const std::uint32_t> back_to_front);
 
@@ -61,11 +73,16 @@ class GlSplats {
   GlProgram splat_program_, resolve_program_;
   GlVertexArray vertex_array_;
   GlBuffer indices_;
-  TexelBuffer order_, geometry_, colours_, styles_;
+  struct Cloud {
+    TexelBuffer geometry, colours;
+    std::size_t gaussians = 0;
+    int sh_degree = 0, sh_texels = 1;
+    bool antialiased = false;
+  };
+  std::shared_ptr<const Cloud> cloud_;
+  TexelBuffer order_, styles_;
   RenderTarget float_target_, resolved_;
-  std::size_t gaussians_ = 0, ordered_ = 0;
-  int sh_degree_ = 0, sh_texels_ = 1;
-  bool antialiased_ = false;  // of the cloud
+  std::size_t ordered_ = 0;
 };
 
 }  // namespace splatcut

@@ -123,6 +123,26 @@ TEST_CASE("OSMesa: one point of a low-pass looks as by hand and as on the CPU") 
   }
 }
 
+TEST_CASE(
+    "OSMesa: a cloud that is shared is drawn alike, in styles of each, also when its first holder went") {
+  const auto context = make_osmesa_context();
+  const GaussianCloud cloud = single_splat(2, 0.2f, 0.9f, glm::vec3(0.25f));
+  const std::uint32_t only[] = {0};
+  GlSplats second;
+  {
+    GlSplats first;
+    first.upload(cloud);
+    first.upload_order(only);
+    first.upload_styles(std::vector<SplatStyle>{{0, 0, 0, 0}});
+    second.share(first);
+    first.draw(axis_camera());
+    CHECK(first.read_picture().at(16, 16) == glm::vec4(0));
+  }
+  second.upload_order(only);
+  second.draw(axis_camera());
+  CHECK(psnr_db(second.read_picture(), rasterize(cloud, axis_camera())) >= kGoalDb);
+}
+
 TEST_CASE("EGL without a surface draws the same picture") {
   const auto context = make_egl_context();
   keep_drivers_loaded();

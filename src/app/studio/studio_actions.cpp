@@ -292,7 +292,7 @@ void Studio::run(Action action) {
 }
 
 void Studio::close_shape() {
-  run_all(ws_.tools.confirm(viewport_.tool_context(ws_.tools.pointer_px())));
+  run_all(ws_.tools.confirm(viewport_.tool_context(viewport_.pressed_pane())));
 }
 
 void Studio::turn_over(bool ViewState::*part) {

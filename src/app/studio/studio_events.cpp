@@ -89,26 +89,30 @@ void Studio::pointer(std::function<void()> event) {
 void Studio::press_at(const glm::vec2& pixel, PointerButton button, const Modifiers& modifiers) {
   pointer([this, pixel, button, modifiers] {
     viewport_.press_in(viewport_.pane_at(pixel));
-    run_all(ws_.tools.press(viewport_.in_pane(pixel), button, modifiers, viewport_.tool_context(pixel)));
+    run_all(ws_.tools.press(viewport_.in_pane(pixel), button, modifiers,
+                            viewport_.tool_context(viewport_.pane_at(pixel))));
   });
 }
 
 void Studio::move_to(const glm::vec2& pixel, const Modifiers& modifiers) {
   clicks_.pointer_inside(true);
   pointer([this, pixel, modifiers] {
-    run_all(ws_.tools.move(viewport_.in_pane(pixel), modifiers, viewport_.tool_context(pixel)));
+    run_all(ws_.tools.move(viewport_.in_pane(pixel), modifiers,
+                           viewport_.tool_context(viewport_.pane_at(pixel))));
   });
 }
 
 void Studio::release_at(const glm::vec2& pixel, PointerButton button, const Modifiers& modifiers) {
   pointer([this, pixel, button, modifiers] {
-    run_all(ws_.tools.release(viewport_.in_pane(pixel), button, modifiers, viewport_.tool_context(pixel)));
+    run_all(ws_.tools.release(viewport_.in_pane(pixel), button, modifiers,
+                              viewport_.tool_context(viewport_.pane_at(pixel))));
   });
 }
 
 void Studio::double_click_at(const glm::vec2& pixel) {
   pointer([this, pixel] {
-    run_all(ws_.tools.double_click(viewport_.in_pane(pixel), viewport_.tool_context(pixel)));
+    run_all(
+        ws_.tools.double_click(viewport_.in_pane(pixel), viewport_.tool_context(viewport_.pane_at(pixel))));
   });
 }
 
@@ -187,7 +191,9 @@ void Studio::wheel(float steps, const Modifiers& modifiers) {
   const bool sizes = !modifiers.alt && !ws_.tools.at_work() && clicks_.wheel_takes_sizes();
   if (!flight().moving() && sizes && steps != 0) return apply(StepScale{steps > 0 ? 1 : -1});
   if (!flight().moving())
-    return run_all(ws_.tools.wheel(steps, modifiers, viewport_.tool_context(ws_.tools.pointer_px())));
+    return run_all(ws_.tools.wheel(
+        steps, modifiers,
+        viewport_.tool_context(viewport_.pane_at(cursor_px_.value_or(mouse_px_.value_or(glm::vec2(0)))))));
   constexpr float kSpeedStep = 1.25f, kSlowest = 0.02f, kFastest = 50;
   ViewState view = ws_.view;
   view.fly_speed = std::clamp(view.fly_speed * std::pow(kSpeedStep, steps), kSlowest, kFastest);

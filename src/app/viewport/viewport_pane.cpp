@@ -39,34 +39,45 @@ void banner(const UiContext& ui, const ImVec2& at, const char* symbol, const ImV
   list.AddText(nullptr, 0, {at.x + 34, at.y + 8}, packed(ui.theme.colour.text), text.c_str(), nullptr, wrap);
 }
 
-// What lies there on the screen: of the active object's Gaussians, or of a sample of them, how many, and as
-// much again for each badge and each dot of a click.
-std::size_t covers(const UiContext& ui, const UiRect& picture, const UiRect& rect) {
+// Where a message should not lie, on the screen: a sample of the active object's Gaussians, and the badges
+// and dots of clicks, each of which counts as much as the whole sample.
+struct Covered {
+  std::vector<glm::vec2> object, marks;
+};
+constexpr std::size_t kMostCovered = 4000;  // size of the sample
+
+Covered covered_by_message(const UiContext& ui, const UiRect& picture) {
   const Studio& studio = ui.studio;
-  if (!studio.scene()) return 0;
-  const std::vector<std::uint8_t> object = studio.labels(studio.document().active);
-  constexpr std::size_t kMost = 4000;
-  const std::size_t step = 1 + studio.gaussians_of(studio.document().active) / kMost;
-  const GaussianCloud& cloud = *studio.scene()->cloud;
-  const Camera camera = studio.viewport().pane_camera();
+  Covered out;
+  if (!studio.scene()) return out;
   const OnScreen place = on_screen(ui, picture);
-  std::size_t inside = 0;
-  for (std::size_t g = 0, counted = 0; g < object.size(); ++g) {
-    if (!object[g] || counted++ % step != 0) continue;
+  const auto screen_of = [&](const glm::vec2& pixel) {
+    const ImVec2 at = place(pixel);
+    return glm::vec2(at.x, at.y);
+  };
+  out.marks = ui.state.badges;
+  for (const StrokeMark& mark : studio.viewport().marks()) out.marks.push_back(screen_of(mark.at_px));
+  const Flags& labels = studio.viewport().active_labels();
+  const GaussianCloud& cloud = *studio.scene()->cloud;
+  if (!labels || labels->size() != cloud.size()) return out;
+  const Camera camera = studio.viewport().pane_camera();
+  const std::size_t step = 1 + studio.gaussians_of(studio.document().active) / kMostCovered;
+  for (std::size_t g = 0, counted = 0; g < labels->size() && out.object.size() < kMostCovered; ++g) {
+    if (!(*labels)[g] || counted++ % step != 0) continue;
     const glm::vec3 seen = camera.camera_from_world(cloud.position[g]);
     if (!(seen.z > studio.viewport().draw_limits().near_plane)) continue;
-    const ImVec2 at = place(camera.pixel_from_camera(seen));
-    inside += rect.contains({at.x, at.y});
+    out.object.push_back(screen_of(camera.pixel_from_camera(seen)));
   }
+  return out;
+}
+
+std::size_t count_in(const UiRect& rect, const Covered& covered) {
   constexpr float kBadge = 11;  // points, of its radius
-  std::vector<glm::vec2> marks = ui.state.badges;
-  for (const StrokeMark& mark : studio.viewport().marks()) {
-    const ImVec2 at = place(mark.at_px);
-    marks.emplace_back(at.x, at.y);
-  }
   const UiRect near{rect.min - kBadge, rect.max + kBadge};
-  for (const glm::vec2& at : marks) inside += near.contains(at) ? kMost : 0;
-  return inside;
+  const auto in_rect = [&](const glm::vec2& at) { return rect.contains(at); };
+  const auto in_near = [&](const glm::vec2& at) { return near.contains(at); };
+  return static_cast<std::size_t>(std::ranges::count_if(covered.object, in_rect)) +
+         kMostCovered * static_cast<std::size_t>(std::ranges::count_if(covered.marks, in_near));
 }
 
 // In the corner that covers least as the message comes, a lower one if it covers nothing; there it stays.
@@ -90,9 +101,10 @@ void draw_message(const UiContext& ui, const UiRect& area, float top) {
               low = area.max.y - size.y - kMargin, high = std::min(low, top + kMargin);
   const std::array<glm::vec2, 4> corners = {{{left, low}, {right, low}, {left, high}, {right, high}}};
   if (std::exchange(ui.state.message_s, message.time_s) != message.time_s) {
+    const Covered below = covered_by_message(ui, area);
     std::array<std::size_t, 4> covered;
     std::ranges::transform(corners, covered.begin(), [&](const glm::vec2& at) {
-      return covers(ui, area, {at, at + size});
+      return count_in({at, at + size}, below);
     });
     ui.state.message_place = static_cast<std::size_t>(std::ranges::min_element(covered) - covered.begin());
   }
@@ -307,11 +319,22 @@ std::optional<UiRect> first_run_hint(UiContext& ui, const UiRect& area) {
   return UiRect{{at.x, at.y}, {at.x + size.x, at.y + size.y}};
 }
 
+// Rings and centres that no pane shows go: they hold the whole scene of which they were made.
+void forget_unshown(const UiContext& ui) {
+  const Studio& studio = ui.studio;
+  const int panes = studio.scene() ? studio.viewport().panes() : 0;
+  for (int i = 0; i < 2; ++i) {
+    if (i >= panes || !studio.view().rings) ui.state.rings[i] = {};
+    if (i >= panes || !studio.view().centres) ui.state.centres[i] = {};
+  }
+}
+
 }  // namespace
 
 std::vector<UiRect> viewport_pane(UiContext& ui, const UiRect& area, ImTextureID gpu_picture[2]) {
   std::vector<UiRect> covered;
   ui.state.badges.clear();
+  forget_unshown(ui);
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const Studio& studio = ui.studio;
   list.AddRectFilled(vec(area.min), vec(area.max), packed(ui.theme.colour.panel_low));
@@ -323,9 +346,13 @@ std::vector<UiRect> viewport_pane(UiContext& ui, const UiRect& area, ImTextureID
   const int panes = studio.viewport().panes();
   const float pane_width = area.size().x / static_cast<float>(panes);
   const FrameResult* picture = studio.viewport().picture();
+  const auto rect_of = [&](int pane) -> UiRect {
+    const float left = area.min.x + pane_width * static_cast<float>(pane);
+    return {{left, area.min.y}, {left + pane_width, area.max.y}};
+  };
   for (int i = 0; i < panes; ++i) {
-    const ImVec2 from = {area.min.x + pane_width * static_cast<float>(i), area.min.y};
-    const ImVec2 to = {from.x + pane_width, area.max.y};
+    const UiRect of_pane = rect_of(i);
+    const ImVec2 from = vec(of_pane.min), to = vec(of_pane.max);
     const auto pane = static_cast<std::size_t>(i);
     if (gpu_picture[i])
       list.AddImage(gpu_picture[i], from, to);
@@ -333,7 +360,6 @@ std::vector<UiRect> viewport_pane(UiContext& ui, const UiRect& area, ImTextureID
       list.AddImage(
           ui.renderer.texture(kPaneKey + pane, studio.viewport().picture_serial(), picture->pictures[pane]),
           from, to);
-    const UiRect of_pane = {{from.x, from.y}, {to.x, to.y}};
     if (!gpu_picture[i] && !picture) coming_label(ui, of_pane, studio.coming());
     ImGui::PushClipRect(from, to, true);
     draw_ground_grid(ui, of_pane, i);
@@ -354,11 +380,17 @@ std::vector<UiRect> viewport_pane(UiContext& ui, const UiRect& area, ImTextureID
   draw_sizes(ui, area, bar);
   draw_strokes(ui, area);
   ImGui::PopClipRect();
+  // A volume stands in the scene, whichever pane shows that; what is drawn on a picture stays there.
+  const bool volume = studio.overlay().shape == ToolOverlay::Shape::kCircle;
+  for (int i = 0; i < panes; ++i) {
+    if (!volume && i != studio.viewport().pressed_pane()) continue;
+    const UiRect of_pane = rect_of(i);
+    ImGui::PushClipRect(vec(of_pane.min), vec(of_pane.max), true);
+    draw_tool_shape(ui, of_pane);
+    draw_points(ui, of_pane);
+    ImGui::PopClipRect();
+  }
   ImGui::PushClipRect(vec(area.min), vec(area.max), true);
-  draw_tool_shape(
-      ui,
-      {area.min + glm::vec2(pane_width * static_cast<float>(studio.viewport().drag_pane()), 0), area.max});
-  draw_points(ui, area);
   draw_brush_ring(ui, area);
   draw_looking(ui, area);
   if (!studio.cursor_px()) draw_cursor_sign(ui, area);

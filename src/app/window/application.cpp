@@ -59,11 +59,11 @@ Application::Application(const ApplicationOptions& options) : studio_(options.st
   name_keys(ImGui::GetIO());
   if (!options.sample.empty() && std::filesystem::exists(options.sample))
     interface_.state().sample = options.sample;
-  choose_renderer(options.renderer);
+  choose_renderer(options.renderer, options.studio.wake);
   resize(size_points_, 1);
 }
 
-void Application::choose_renderer(RendererChoice choice) {
+void Application::choose_renderer(RendererChoice choice, const std::function<void()>& wake) {
   const GlInfo gl = current_gl_info();
   const bool use_gl = choice == RendererChoice::kGl || (choice == RendererChoice::kAuto && !gl.software);
   std::string name = gl.renderer.substr(0, gl.renderer.find(" ("));
@@ -72,7 +72,7 @@ void Application::choose_renderer(RendererChoice choice) {
                                          ? "CPU renderer (asked for)"
                                          : fmt::format("CPU renderer (OpenGL is software here: {})", name);
   studio_.set_gpu_view(use_gl);
-  if (use_gl) gpu_ = std::make_unique<GpuView>(std::function<void()>());
+  if (use_gl) gpu_ = std::make_unique<GpuView>(wake);
 }
 
 void Application::resize(const glm::vec2& size_points, float pixels_per_point) {

@@ -79,7 +79,7 @@ class Application {
   void take_now(const PointerButtonChanged& event);
   void take_now(const PointerLeft& event);
   bool button_held() const;
-  void choose_renderer(RendererChoice choice);
+  void choose_renderer(RendererChoice choice, const std::function<void()>& wake);
   void open(const OpenScene& command);  // asks first where work would be lost
   void remember_recent();
   void build_interface(double seconds, Requests* ask);

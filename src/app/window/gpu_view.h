@@ -28,6 +28,7 @@ class GpuView {
   struct Sorted {
     explicit Sorted(const std::function<void()>& wake) : sorter(wake) {}
     void follow(const std::shared_ptr<const GaussianCloud>& wanted, const Camera& seen_by);
+    void forget();
 
     DepthSorter sorter;
     std::shared_ptr<const GaussianCloud> cloud;
@@ -35,6 +36,7 @@ class GpuView {
     std::optional<DepthOrder> order;
     std::uint64_t serial = 0;  // of the order
   };
+  void forget_unshown(const Studio& studio);
   void refresh(Pane* pane, const std::shared_ptr<const GaussianCloud>& cloud, const Studio& studio,
                int index);
 

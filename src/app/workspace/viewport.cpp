@@ -49,6 +49,8 @@ void Viewport::change_scene() {
   range_shown_.reset();
   picture_.reset();
   stroke_marks_.forget();
+  within_.reset();
+  limits_changed_s_.reset();
   camera_.change_scene(ws_.scene->bounds);
 }
 
@@ -72,8 +74,9 @@ bool Viewport::moving() const {
 }
 
 bool Viewport::idle() const {
-  return frames_.idle() && (!ws_.scene || (style_current() && picture_ && picture_->full && requested_full_ &&
-                                           requested_style_ == style_serial_ && !moving()));
+  return frames_.idle() && !limits_changed_s_ &&
+         (!ws_.scene || (style_current() && picture_ && picture_->full && requested_full_ &&
+                         requested_style_ == style_serial_ && !moving()));
 }
 
 bool Viewport::update(double seconds, const Flight& flight) {
@@ -152,7 +155,20 @@ DrawLimits Viewport::draw_limits() const {
 }
 
 Flags Viewport::seen(int pane) const {
-  return within_far_plane(*ws_.scene->cloud, pane_camera(), shown(pane), draw_limits().far_plane);
+  return within_limits(pane_camera(), shown(pane));
+}
+
+// The dots of an object's clicks ask for the same camera one after another, and each pass is over all
+// Gaussians.
+Flags Viewport::within_limits(const Camera& camera, const Flags& visible) const {
+  const std::shared_ptr<const GaussianCloud>& cloud = ws_.scene->cloud;
+  const float far_plane = draw_limits().far_plane;
+  const bool known = within_ && within_->cloud.lock() == cloud && within_->visible == visible &&
+                     within_->far_plane == far_plane && same_camera(within_->camera, camera);
+  if (!known)
+    within_ =
+        WithinLimits{cloud, camera, far_plane, visible, within_far_plane(*cloud, camera, visible, far_plane)};
+  return within_->within;
 }
 
 void Viewport::show_floaters(bool shown) {
@@ -344,15 +360,15 @@ RasterOutput Viewport::drawn(const Camera& camera, const PixelRect& part, const 
   options.low_pass_px2 = limits.low_pass_px2;
   options.roi = part;
   options.blocks = ws_.scene->blocks.get();
-  const Flags visible = within_far_plane(*ws_.scene->cloud, camera, visible_set, limits.far_plane);
+  const Flags visible = within_limits(camera, visible_set);
   if (visible) options.shown = *visible;
   return rasterize(*ws_.scene->cloud, camera, options);
 }
 
-std::optional<float> Viewport::depth_on_screen(const glm::vec2& pixel) const {
+std::optional<float> Viewport::depth_on_screen(const glm::vec2& pixel, int pane) const {
   if (!picture_ || picture_->frames.empty() || picture_->scene != ws_.scene->serial) return {};
-  const auto pane = std::min(static_cast<std::size_t>(pressed_pane()), picture_->frames.size() - 1);
-  const Frame& frame = *picture_->frames[pane];
+  const Frame& frame =
+      *picture_->frames[std::min(static_cast<std::size_t>(pane), picture_->frames.size() - 1)];
   const Image<float>& depth = frame.depth;
   const Camera camera = pane_camera();
   const glm::vec2 at = pixel / glm::vec2(camera.width_px, camera.height_px);
@@ -365,14 +381,13 @@ std::optional<float> Viewport::depth_on_screen(const glm::vec2& pixel) const {
   return z > 0 ? std::optional(z) : std::nullopt;
 }
 
-ToolContext Viewport::tool_context(const glm::vec2& pixel) {
-  const int pane = pane_at(pixel);
+ToolContext Viewport::tool_context(int pane) {
   return {camera_,
           ws_.view,
           pane_camera(),
           pixels_per_point_,
           [this](const glm::vec2& at) { return pick(at); },
-          [this](const glm::vec2& at) { return depth_on_screen(at); },
+          [this, pane](const glm::vec2& at) { return depth_on_screen(at, pane); },
           [this, pane] { return seen(pane); },
           [this](const glm::vec2& at, SeedLabel label) -> std::optional<RemoveStroke> {
             const StrokeMark* mark = mark_at(at);
@@ -384,11 +399,19 @@ ToolContext Viewport::tool_context(const glm::vec2& pixel) {
 void Viewport::refresh_marks() {
   marks_.clear();
   const ObjectItem* object = ws_.scene ? ws_.document().active_object() : nullptr;
-  if (!object || hides_chosen(ws_.view, object->id)) return;  // dots stand on its surface
+  if (!object || hides_chosen(ws_.view, object->id)) {  // dots stand on its surface
+    if (std::exchange(limits_changed_s_, std::nullopt)) stroke_marks_.forget();
+    return;
+  }
   const auto hit = [this](const Camera& camera, const glm::vec2& pixel, const Flags& visible) {
     return hit_in(camera, pixel, visible);
   };
-  if (std::exchange(marked_within_, draw_limits()) != draw_limits()) stroke_marks_.forget();
+  // While the far limit is dragged the dots stay where they are known to be.
+  if (std::exchange(marked_within_, draw_limits()) != draw_limits()) limits_changed_s_ = ws_.clock_s;
+  if (limits_changed_s_ && ws_.clock_s - *limits_changed_s_ > kStillAfterSeconds) {
+    stroke_marks_.forget();
+    limits_changed_s_.reset();
+  }
   marks_ = stroke_marks_.in(*object, pane_camera(), {hit, [this](const glm::vec3& at) { return hides(at); }});
 }
 

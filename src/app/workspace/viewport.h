@@ -48,10 +48,8 @@ class Viewport {
   Camera pane_camera() const;  // camera of each pane: two panes show the same view
   int panes() const { return std::max(1, styles_.panes); }  // number of panes that are shown
   int pane_at(const glm::vec2& pixel) const;                // pane under the pixel; during a drag, the drag's
-  // Pane in which a drag goes on; 1 is the right one.
-  int drag_pane() const { return panes() == 2 && ws_.tools.dragging() ? pressed_pane_ : 0; }
   void press_in(int pane) { pressed_pane_ = pane; }
-  // Pane in which a button was pressed last: the one that the user works in.
+  // Pane in which a button was pressed last: the one that the user works in. 1 is the right one.
   int pressed_pane() const { return panes() == 2 ? pressed_pane_ : 0; }
   glm::vec2 in_pane(const glm::vec2& pixel) const;  // position within the pane that pane_at() names
   float pixels_per_point() const { return pixels_per_point_; }
@@ -78,7 +76,8 @@ class Viewport {
   }
   // Labels of the active object, as they are shown; null: there are none yet.
   const Flags& active_labels() const { return styles_.active_labels; }
-  Flags seen(int pane) const;  // Gaussians that the pane shows now; null: all
+  Flags seen(
+      int pane) const;  // Gaussians that the pane shows now; null: all. The same array for the same view
   void show_floaters(bool shown);
   bool floaters_shown() const { return floaters_shown_; }
   void show_range(const std::optional<SelectRangeOrColour>& range);  // outlines it; none: no outline
@@ -115,10 +114,10 @@ class Viewport {
   // Opacity and depth of a part of the picture that any camera shows of the visible Gaussians.
   RasterOutput drawn(const Camera& camera, const PixelRect& part, const Flags& visible) const;
   DrawnPart drawn_part() const;  // the same, for hits_of()
-  // Camera z of the surface under a pixel, scene units, from the last picture; none: unknown. While the view
-  // moves, the picture lags behind, and so does the answer.
-  std::optional<float> depth_on_screen(const glm::vec2& pixel) const;
-  ToolContext tool_context(const glm::vec2& pixel);
+  // Camera z of the surface under a pixel of a pane, scene units, from the last picture; none: unknown. While
+  // the view moves, the picture lags behind, and so does the answer.
+  std::optional<float> depth_on_screen(const glm::vec2& pixel, int pane) const;
+  ToolContext tool_context(int pane);  // for a tool that is used in that pane
   // Marks of the active object's clicks, in the pixels of the first pane. mark_at(): the one under a pixel;
   // null: none is, or there are two panes.
   const std::vector<StrokeMark>& marks() const { return marks_; }
@@ -131,6 +130,8 @@ class Viewport {
   void request_picture();
   void take_picture();
   void refresh_marks();
+  // Of the visible Gaussians, those within the far plane of the camera.
+  Flags within_limits(const Camera& camera, const Flags& visible) const;
   bool hides(const glm::vec3& point_world) const;  // the last picture shows something before it
 
   Workspace& ws_;
@@ -142,6 +143,14 @@ class Viewport {
   StrokeMarks stroke_marks_;
   std::vector<StrokeMark> marks_;
   DrawLimits marked_within_;
+  std::optional<double> limits_changed_s_;  // time of a change that the marks do not know of yet
+  struct WithinLimits {                     // the last answer of within_limits()
+    std::weak_ptr<const GaussianCloud> cloud;
+    Camera camera;
+    float far_plane = 0;
+    Flags visible, within;
+  };
+  mutable std::optional<WithinLimits> within_;
   int pressed_pane_ = 0;  // pane in which a button was pressed last
 
   Styles styles_;

@@ -2,6 +2,8 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -78,6 +80,70 @@ TEST_CASE("hands: side by side, what is drawn in the right pane takes what that 
   CHECK(drag(0.05f, 0.45f) > 2 * apple);
 }
 
+namespace {
+
+// Pixels of each pane's middle, free of labels, that differ between two frames.
+std::array<int, 2> changed_in_panes(const UiRect& area, const Image<Rgb8>& a, const Image<Rgb8>& b) {
+  std::array<int, 2> changed{};
+  const glm::vec2 middle = 0.5f * (area.min + area.max);
+  for (int y = static_cast<int>(area.min.y) + 110; y < static_cast<int>(area.max.y) - 60; ++y)
+    for (int x = static_cast<int>(area.min.x) + 5; x < static_cast<int>(area.max.x) - 5; ++x)
+      if (std::abs(static_cast<float>(x) - middle.x) > 4)
+        changed[static_cast<float>(x) > middle.x] += a.at(x, y) != b.at(x, y);
+  return changed;
+}
+
+}  // namespace
+
+TEST_CASE("hands: side by side, a shape lies in the pane where it is drawn, and a volume in both") {
+  Hands hands;
+  HeadlessApp& app = hands.app;
+  app.key('B');
+  REQUIRE(app.settle());
+  const UiRect area = app->interface().viewport();
+  const glm::vec2 right(area.min.x + 0.75f * area.size().x, area.min.y + 0.5f * area.size().y);
+  const auto frame_of = [&](int tool) {
+    app.key(tool);
+    app.move(right);
+    REQUIRE(app.settle());
+    app.wait_for_message_to_go();
+    return app.picture();
+  };
+  const Image<Rgb8> before_polygon = frame_of('8');
+  for (const glm::vec2& corner : {glm::vec2(-40, -30), {40, -30}, {0, 40}}) app.click(right + corner);
+  app.move(right);
+  app.frames(2);
+  const auto [polygon_left, polygon_right] = changed_in_panes(area, before_polygon, app.picture());
+  CHECK(polygon_left == 0);
+  CHECK(polygon_right > 100);
+  hands.studio().run(Action::kCancel);
+  const Image<Rgb8> before_volume = frame_of('9');
+  const glm::vec2 on_apple = app.screen_of(kOnApple) + glm::vec2(0.5f * area.size().x, 0);
+  app.move(on_apple);
+  app.press(PointerButton::kLeft);
+  app.move(on_apple + glm::vec2(40, 0));
+  app.frames(2);
+  const auto [volume_left, volume_right] = changed_in_panes(area, before_volume, app.picture());
+  CHECK(volume_left > 300);
+  CHECK(volume_right > 300);
+  app.release(PointerButton::kLeft);
+}
+
+TEST_CASE("hands: side by side, the wheel comes nearer to what the pane under the pointer shows") {
+  Hands hands;
+  hands.app.key('B');
+  REQUIRE(hands.app.settle());
+  const UiRect area = hands.app->interface().viewport();
+  const glm::vec2 at(60, 130);  // the wall in the left pane, and nothing in the right one
+  const Camera camera = hands.studio().viewport().pane_camera();
+  REQUIRE(hands.studio().viewport().pick(at));
+  CameraController expected = hands.studio().camera();
+  expected.zoom(2, camera.world_from_pixel(at, expected.pose().distance));
+  hands.app.move(area.min + at + glm::vec2(0.5f * area.size().x, 0));
+  hands.studio().wheel(2, {});
+  CHECK(glm::distance(hands.studio().camera().pose().position_world, expected.pose().position_world) < 1e-4f);
+}
+
 TEST_CASE("hands: alone, an object that stays empty is no black picture") {
   Hands hands;
   Studio& studio = hands.studio();
@@ -125,6 +191,22 @@ TEST_CASE("hands: floaters are shown as long as there are any") {
   studio.apply(EditSelection{SelectionEdit::kRemoveFloaters});
   REQUIRE(app.settle());
   CHECK_FALSE(studio.viewport().floaters_shown());
+}
+
+TEST_CASE("far limit: what is within it is looked for once a view") {
+  HeadlessApp app(kSmallWidth, kSmallHeight);
+  app.open(kSmallSample);
+  REQUIRE(app.settle());
+  ViewState view = app.studio().view();
+  view.far_share = 0.5f;
+  app.studio().apply(SetView{view});
+  REQUIRE(app.settle());
+  const Flags within = app.studio().viewport().seen(0);
+  REQUIRE(within);
+  CHECK(app.studio().viewport().seen(0) == within);
+  view.far_share = 0.4f;
+  app.studio().apply(SetView{view});
+  CHECK(app.studio().viewport().seen(0) != within);
 }
 
 TEST_CASE("far limit: what lies beyond is neither drawn nor picked nor selected") {

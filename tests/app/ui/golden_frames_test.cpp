@@ -2,8 +2,11 @@
 // them before they are committed. Failures leave NAME.actual.png and NAME.difference.png in the build folder.
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cstdlib>
+#include <functional>
 #include <thread>
 
 #include "app/work/work_file.h"
@@ -190,6 +193,114 @@ TEST_CASE("frames: OpenGL draws the checker as the CPU does, moving or still, on
       if (!moving) CHECK(d.share_beyond == 0);
       if (moving) CHECK(d.psnr_db > 15);  // the CPU's moving picture is smaller, and enlarged
     }
+}
+
+namespace {
+
+using ChangedPixels = std::vector<std::uint8_t>;
+
+// The pixels of the picture that `plain` and `styled` show differently.
+ChangedPixels changed_by(RendererChoice renderer, const std::function<void(HeadlessApp&)>& objects,
+                         const std::function<void(Studio&)>& style) {
+  constexpr int kVisible = 10;  // levels
+  ApplicationOptions options = with_kept_scenes();
+  options.renderer = renderer;
+  HeadlessApp app(760, 420, 1, options);
+  app.interface_state().hint_wanted = false;
+  app.open(kSmallSample);
+  REQUIRE(app.settle());
+  objects(app);
+  ViewState view = app.studio().view();
+  view.tint = view.outline = false;
+  app.studio().apply(SetView{view});
+  const auto frame = [&] {
+    REQUIRE(app.settle());
+    app.wait_for_message_to_go();
+    app.frames(3);
+    return app.picture();
+  };
+  const Image<Rgb8> plain = frame();
+  style(app.studio());
+  const Image<Rgb8> styled = frame();
+  const UiRect area = app->interface().viewport();
+  ChangedPixels changed;
+  for (int y = static_cast<int>(area.min.y) + 84; y < static_cast<int>(area.max.y) - 20; ++y)
+    for (int x = static_cast<int>(area.min.x) + 5; x < static_cast<int>(area.max.x) - 120; ++x) {
+      int most = 0;
+      for (std::size_t c = 0; c < 3; ++c)
+        most = std::max(most, std::abs(plain.at(x, y)[c] - styled.at(x, y)[c]));
+      changed.push_back(most > kVisible);
+    }
+  return changed;
+}
+
+// Puts a square of the picture's middle into the active object, `right` pixels from it.
+void take_square(Studio& studio, int right) {
+  const Camera camera = studio.viewport().pane_camera();
+  Mask square(camera.width_px, camera.height_px);
+  for (int y = -40; y < 40; ++y)
+    for (int x = 0; x < 60; ++x)
+      square.at(camera.width_px / 2 + right + x, camera.height_px / 2 + y) = kMaskObject;
+  studio.apply(SelectRegion{camera, square});
+}
+
+}  // namespace
+
+TEST_CASE("frames: OpenGL tints, outlines and highlights what the CPU does, whatever the colours") {
+  const auto dark_object = [](HeadlessApp& app) {
+    take_square(app.studio(), -30);
+    REQUIRE(app.settle());
+    app.studio().apply(RecolourObject{app.studio().document().active, {6, 6, 6}});
+  };
+  const auto touching_objects = [](HeadlessApp& app) {
+    take_square(app.studio(), -60);
+    REQUIRE(app.settle());
+    app.studio().apply(NewObject{});
+    take_square(app.studio(), 0);
+  };
+  const auto shows = [](bool tint, bool outline) {
+    return [=](Studio& studio) {
+      ViewState view = studio.view();
+      view.tint = tint;
+      view.outline = outline;
+      studio.apply(SetView{view});
+    };
+  };
+  const auto agree = [](const char* what, const auto& objects, const auto& style) {
+    CAPTURE(what);
+    const ChangedPixels cpu = changed_by(RendererChoice::kCpu, objects, style),
+                        gl = changed_by(RendererChoice::kGl, objects, style);
+    const double iou = iou_of(cpu, gl);
+    MESSAGE(std::string(what) << ": " << std::ranges::count(cpu, 1) << " pixels, IoU " << iou);
+    CHECK(std::ranges::count(cpu, 1) > 100);
+    CHECK(iou > 0.8);
+  };
+  agree("the tint of a dark object", dark_object, shows(true, false));
+  agree("the outline of a dark object", dark_object, shows(false, true));
+  agree("the line between two objects", touching_objects, shows(false, true));
+}
+
+TEST_CASE("frames: the sorter of the splats wakes the window when a new order is there") {
+  std::atomic<int> wakes = 0;
+  ApplicationOptions options = with_kept_scenes();
+  options.renderer = RendererChoice::kGl;
+  options.studio.wake = [&] { ++wakes; };
+  HeadlessApp app(760, 420, 1, options);
+  app.open(kSmallSample);
+  REQUIRE(app.settle());
+  app.wait_for_message_to_go();
+  app.frames(3);
+  const glm::vec2 at = app->interface().viewport().min + glm::vec2(200, 200);
+  app.move(at);
+  app.press(PointerButton::kMiddle);
+  app.frames(1);
+  const int before = wakes;  // while the view moves, no picture is asked for
+  app.move(at + glm::vec2(12, 0));
+  app.frames(1);
+  for (int waited_ms = 0; waited_ms < 5000 && wakes == before; ++waited_ms)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  CHECK(wakes > before);
+  app.release(PointerButton::kMiddle);
 }
 
 TEST_CASE("frames: HiDPI") {

@@ -65,6 +65,30 @@ TEST_CASE("overlays: rings are drawn over the picture of either renderer, and fo
   }
 }
 
+TEST_CASE("overlays: rings and panes that went keep nothing of the scene before, with either renderer") {
+  for (const RendererChoice renderer : {RendererChoice::kCpu, RendererChoice::kGl}) {
+    CAPTURE(renderer == RendererChoice::kGl);
+    ApplicationOptions options = with_kept_scenes();
+    options.renderer = renderer;
+    Hands hands(true, options);
+    toggle(hands.studio(), &ViewState::rings);
+    hands.app.key('B');
+    REQUIRE(hands.app.settle());
+    hands.app.frames(3);
+    REQUIRE(hands.studio().viewport().panes() == 2);
+    hands.app.key('B');
+    toggle(hands.studio(), &ViewState::rings);
+    REQUIRE(hands.app.settle());
+    hands.app.frames(3);
+    const std::weak_ptr<const GaussianCloud> before = hands.studio().scene()->cloud;
+    hands.studio().apply(OpenScene{kSmallSample});
+    REQUIRE(hands.app.frames_until([&] { return hands.studio().scene()->cloud != before.lock(); }));
+    REQUIRE(hands.app.settle());
+    hands.app.frames(3);
+    CHECK(hands.app.frames_until([&] { return before.expired(); }));
+  }
+}
+
 TEST_CASE("overlays: the grid shows in the window, in no picture that is saved") {
   Hands hands(false);
   hands.app.key('F', {.shift = true});
