@@ -363,8 +363,8 @@ TEST_CASE("layout: names in Vietnamese, and accents that stand by themselves, ha
   app.frames(1);
   const Theme& theme = app->interface().theme();
   for (const ImFont* font : {theme.body, theme.strong, theme.title})
-    for (const ImWchar letter : {0x111, 0x1a1, 0x1b0, 0x301, 0x323, 0x1ea1, 0x1ed9, 0x1ef9, 0x416, 0x3a9}) {
+    for (const int letter : {0x111, 0x1a1, 0x1b0, 0x301, 0x323, 0x1ea1, 0x1ed9, 0x1ef9, 0x416, 0x3a9}) {
       CAPTURE(letter);
-      CHECK(font->FindGlyphNoFallback(letter));
+      CHECK(font->FindGlyphNoFallback(static_cast<ImWchar>(letter)));
     }
 }
