@@ -169,6 +169,7 @@ Styles styled(const StyleOrder& order, const Styles& before, LabelCache* labels)
   }
   if (shows_filled_hole(order.view) && n <= kMostToCopy) {
     out.without = order.clean->known_without(leaving_of(document, active, order.view));
+    out.unfinished = !out.without;
     if (!out.without && mostly_same(before.active_labels, active)) out.without = before.without;
     const bool same = out.without == before.without && out.shown[0] == before.shown[0] &&
                       before.display == DisplayMode::kHide;
@@ -178,6 +179,7 @@ Styles styled(const StyleOrder& order, const Styles& before, LabelCache* labels)
   if (!shows_clean_edges(order.view)) return out;
   const std::size_t pane = two ? 1 : 0;
   auto clean = order.clean->known(active, document.up_world);
+  out.unfinished = !clean;
   if (clean && !clean->report.cleaned) return out;
   if (!clean && !before.without)
     clean = carried_over(before.clean[pane], before.active_labels, active, *order.cloud);

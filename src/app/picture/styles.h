@@ -45,6 +45,7 @@ struct Styles {
   std::array<std::shared_ptr<const CleanObject>, 2> clean;
   // What leaves and comes there, of the labels before as long as that is computed anew; null: not known.
   std::shared_ptr<const SceneWithout> without;
+  bool unfinished = false;   // true: clean edges, or the filled hole, are to be shown and were not known
   Flags active_labels;       // labels of the active object, all 0 without one; null: they are not made yet
   std::size_t floaters = 0;  // number of Gaussians in floaters
 };

@@ -48,9 +48,13 @@ bool CleanEdges::computes(bool fills) const {
 }
 
 void CleanEdges::ask(bool fills) {
-  if (!seen_ || !ws_.tasks.idle()) return;
+  if (!seen_) return;
   const Asked now = asked(fills);
-  if (given_up(fills) == now || known(now)) return;
+  if (known(now)) {  // an export made it, too
+    if (shows(fills) && viewport_.styles().unfinished) ++ws_.view_serial;
+    return;
+  }
+  if (given_up(fills) == now || !ws_.tasks.idle()) return;
   if (count_flags(*seen_) > 0)
     start(now);
   else

@@ -39,7 +39,8 @@ class CleanEdges {
   bool known(const Asked& asked) const;
   bool shows(bool fills) const;  // the view does
   bool computes(bool fills) const;
-  void ask(bool fills);  // computes it, if it is not known and was not given up
+  // Computes it, if it is not known and was not given up; has it shown, if another made it meanwhile.
+  void ask(bool fills);
   void start(const Asked& asked);
   Asked& given_up(bool fills) { return given_up_[fills ? 1 : 0]; }
 

@@ -152,3 +152,20 @@ TEST_CASE("hands: how many Gaussians clean edges leave out of an export is known
   CHECK(clean->left > 0);
   CHECK(clean->left == cleaned_without_window(hands).report.left);
 }
+
+TEST_CASE("hands: edges that an export cleaned are shown in the view that waited for it") {
+  const ScratchFolder folder("shown_after_export");
+  Hands hands = hands_on_sample();
+  take_what_touches_it(hands);
+  Export order{{ExportWhat::kObject, SceneFormat::kPly, folder / "apple.ply"}};
+  order.request.clean_edges = true;
+  hands.studio().run(Action::kIsolate);
+  hands.studio().apply(order);  // before the view could ask: the worker is busy with the export
+  REQUIRE(hands.app.settle());
+  REQUIRE(std::filesystem::exists(folder / "apple.ply"));
+  REQUIRE(hands.studio().clean_edges());
+  hands.app.frames(3);
+  REQUIRE(hands.app.settle());
+  REQUIRE(hands.studio().viewport().clean(0));
+  CHECK(hands.studio().viewport().clean(0)->gaussian == cleaned_without_window(hands).gaussian);
+}
