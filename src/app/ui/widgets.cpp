@@ -208,13 +208,20 @@ void action_button(UiContext& ui, Action action, const char* label, bool on, flo
 
 void clean_edges_choice(UiContext& ui, const std::string& reason) {
   ViewState view = ui.studio.view();
+  bool shown = view.clean_edges && reason.empty();  // what is done: the setting itself stays
   ImGui::BeginDisabled(!reason.empty());
-  if (ImGui::Checkbox("Clean edges", &view.clean_edges) && reason.empty()) ui.ask(SetView{view});
+  if (ImGui::Checkbox("Clean edges", &shown) && reason.empty()) {
+    view.clean_edges = shown;
+    ui.ask(SetView{view});
+  }
   ImGui::EndDisabled();
   tooltip(reason.empty()
               ? "Leaves out and trims what only shows, as ragged bits, once the object stands alone; "
                 "else all is written as it is"
               : reason);
+  if (reason.empty()) return;
+  ImGui::SameLine();
+  muted_text(ui, reason);
 }
 
 void fill_hole_choice(UiContext& ui) {

@@ -9,6 +9,7 @@
 namespace splatcut {
 
 // The view's switch, for what is written of an object; greyed with `reason` unless that is empty.
+// reason: why nothing is cleaned, whatever is set; it stands beside the box, which has no tick then.
 void clean_edges_choice(UiContext& ui, const std::string& reason = {});
 // The same for the hole that the object leaves in what is written of the rest.
 void fill_hole_choice(UiContext& ui);

@@ -455,3 +455,30 @@ TEST_CASE("export dialog: its arrows and numbers are those that a reader of the 
     state.exporting.placement = {};
   }
 }
+
+TEST_CASE("export dialog: where no edges are cleaned their box has no tick, and the setting stays") {
+  Hands hands;
+  hands.app.key('E', {false, true, false});
+  hands.app.frames(3);
+  const auto dialog = [&](ExportWhat what, bool clean) {
+    hands.app.interface_state().exporting.what = what;
+    ViewState view = hands.studio().view();
+    view.clean_edges = clean;
+    hands.studio().apply(SetView{view});
+    REQUIRE(hands.app.settle());
+    hands.app.frames(2);
+    REQUIRE(hands.studio().view().clean_edges == clean);
+    const UiRect area = hands.app.window("###export");
+    const Image<Rgb8> picture = hands.app.picture();
+    std::vector<Rgb8> pixels;  // of the left column
+    for (int y = static_cast<int>(area.min.y); y < static_cast<int>(area.max.y); ++y)
+      for (int x = static_cast<int>(area.min.x); x < static_cast<int>(area.min.x) + 620; ++x)
+        if (picture.contains(x, y)) pixels.push_back(picture.at(x, y));
+    return pixels;
+  };
+  for (const ExportWhat what : {ExportWhat::kOneFile, ExportWhat::kScene}) {
+    CAPTURE(static_cast<int>(what));
+    CHECK(dialog(what, true) == dialog(what, false));
+  }
+  CHECK(dialog(ExportWhat::kObject, true) != dialog(ExportWhat::kObject, false));
+}
