@@ -187,7 +187,7 @@ bool Application::walks(const KeyChanged& event) {
     case key::kKeypadEnter:
       return event.repeated ? walk_.mark().has_value() : walk_.press();
     case key::kEscape:
-      return walk_.leave() && !interface_.dialog_open();
+      return walk_.leave();
     default:
       if (action_for(event.key, event.modifiers) == Action::kCursor) walk_.leave();
       return false;

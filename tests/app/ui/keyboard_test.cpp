@@ -399,7 +399,26 @@ TEST_CASE("keyboard: in the settings Tab comes by what is in them alone, and Ent
   CHECK_FALSE(hands.app.interface_state().dark);
   CHECK(hands.app->interface().dialog_open());
   hands.app.key(key::kEscape);
+  CHECK_FALSE(marked(hands));
+  CHECK(hands.app->interface().dialog_open());
+  hands.app.key(key::kEscape);
   hands.app.frames(3);
   CHECK_FALSE(hands.app->interface().dialog_open());
+}
+
+TEST_CASE("keyboard: Esc takes the mark in the export dialog away first, and the typed name stays") {
+  Hands hands;
+  hands.app.key('E', kCtrl);
+  hands.app.frames(3);
+  hands.app.type("pear");
+  const std::string typed = hands.app.interface_state().exporting.path;
+  REQUIRE(typed.ends_with("pear.ply"));
+  tab_to(hands, "Its middle");
+  hands.app.key(key::kEscape);
   CHECK_FALSE(marked(hands));
+  REQUIRE(hands.app.interface_state().export_open);
+  CHECK(hands.app.interface_state().exporting.path == typed);
+  hands.app.key(key::kEscape);
+  hands.app.frames(3);
+  CHECK_FALSE(hands.app.interface_state().export_open);
 }
