@@ -31,6 +31,21 @@ bool Exports::have_all() const {
   });
 }
 
+std::string Exports::announced(const ExportRequest& request, const std::map<ObjectId, Flags>& objects) const {
+  const Document& document = ws_.document();
+  const ObjectItem* active = document.active_object();
+  bool clean = true;
+  if (request.what == ExportWhat::kObject || request.what == ExportWhat::kAllObjects)
+    clean = std::ranges::all_of(objects, [&](const auto& object) {
+      return count_flags(*object.second) == 0 || ws_.clean->known(object.second, document.up_world);
+    });
+  else if (request.what == ExportWhat::kRest && active)
+    clean = ws_.clean->known_without(leaving_of(
+                document, ws_.labels.labels(document, *active, ws_.gaussians()), ws_.view)) != nullptr;
+  const std::string name = request.path.filename().string();
+  return fmt::format("Exporting {}{}", name, request.clean_edges && !clean ? " once edges are clean" : "");
+}
+
 void Exports::perform(const Export& c) {
   ws_.require_scene();
   if (is_work_file(c.request.path)) {
@@ -44,6 +59,8 @@ void Exports::perform(const Export& c) {
   for (const ObjectItem& item : ws_.document().objects)
     if (all || (c.request.what == ExportWhat::kObject && item.id == ws_.document().active))
       objects[item.id] = ws_.labels.labels(ws_.document(), item, ws_.gaussians());
+  doing_ = announced(c.request, objects);
+  ws_.say(Message::Kind::kInfo, doing_);
   ws_.tasks.submit(
       export_order, [this, objects, request = c.request, document = ws_.document(),
                      object = ws_.document().active, scene = ws_.scene, clean = ws_.clean](const Job& job) {
@@ -58,6 +75,7 @@ void Exports::perform(const Export& c) {
           }
           ws_.say(report.hole_kept.empty() ? Message::Kind::kDone : Message::Kind::kRefused,
                   text_of(report, path));
+          ws_.messages.back().stays = true;
         });
       });
 }
@@ -112,6 +130,7 @@ void Exports::perform(const SaveTurntable& c) {
           written(c.path, *scene);
           ws_.say(Message::Kind::kDone,
                   fmt::format("{} pictures saved to {}{}", c.frames, c.path.string(), edges));
+          ws_.messages.back().stays = true;
         });
       });
 }

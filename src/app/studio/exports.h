@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <map>
+#include <string>
 
 #include "app/document/command.h"
 #include "app/workspace/viewport.h"
@@ -30,6 +31,8 @@ class Exports {
   // Folder in which the last of all was written, also before the program began; empty: none was, or
   // it was the scene's own.
   const std::filesystem::path& folder() const { return folder_; }
+  // What is being written, or waits to be; empty: no scene is.
+  std::string doing() const { return ws_.tasks.busy(TaskKind::kExport) ? doing_ : std::string(); }
   // True: every object is in a file as it is now, and the objects are all that was made.
   bool have_all() const;
   void begin_in(std::filesystem::path folder) { folder_ = std::move(folder); }
@@ -40,11 +43,14 @@ class Exports {
     Flags labels;
   };
 
+  // What is said at once of an export of these objects.
+  std::string announced(const ExportRequest& request, const std::map<ObjectId, Flags>& objects) const;
   void written(const std::filesystem::path& path, const OpenedScene& of);
 
   Workspace& ws_;
   const Viewport& viewport_;
   std::filesystem::path last_, folder_;
+  std::string doing_;  // announced() of the last export
   std::map<ObjectId, Exported> exported_;
 };
 

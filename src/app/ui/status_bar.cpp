@@ -37,6 +37,10 @@ std::string status_text(const Studio& studio) {
     return "Looking at what is under the pointer";
   if (progress.kind == TaskKind::kAhead && !progress.stage.empty()) return "Getting other sizes ready";
   if (progress.kind == TaskKind::kReady && !progress.stage.empty()) return "Getting ready for a click";
+  if (const std::string exporting = studio.exports().doing(); progress.busy && !exporting.empty()) {
+    const bool before = progress.kind != TaskKind::kExport && progress.kind != TaskKind::kClean;
+    return exporting + (before && !progress.stage.empty() ? " (first: " + progress.stage + ")" : "");
+  }
   if (progress.busy) return progress.stage.empty() ? "Working" : "Working: " + progress.stage;
   return studio.viewport().picture() ? "Ready" : "Drawing the first picture";
 }

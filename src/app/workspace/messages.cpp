@@ -19,6 +19,11 @@ bool warns(const Message& message) {
   return message.kind == Message::Kind::kRefused || message.kind == Message::Kind::kError;
 }
 
+// Whether the first is to be read before the second is shown.
+bool keeps_off(const Message& shown, const Message& next) {
+  return !warns(next) && (warns(shown) || (shown.stays && !next.stays));
+}
+
 double shown_s(const Message& message) {
   return std::max(kShownSeconds, reading_s(message));
 }
@@ -37,13 +42,17 @@ const Message* shown_message(const std::deque<Message>& messages, double now_s) 
   for (const Message& message : messages) {
     if (message.time_s > now_s) break;
     take_waiting(message.time_s);
-    if (shown && warns(*shown) && !warns(message) && message.time_s < read_at_s()) {
-      waiting = &message;
+    const bool unread = shown && message.time_s < read_at_s();
+    if (unread && keeps_off(*shown, message)) {
+      if (!waiting || !waiting->stays || message.stays) waiting = &message;
       continue;
     }
+    if (unread && shown->stays && !message.stays)
+      waiting = shown;  // it comes back behind a warning
+    else if (waiting && !waiting->stays)
+      waiting = nullptr;
     shown = &message;
     since_s = message.time_s;
-    waiting = nullptr;
   }
   take_waiting(now_s);
   return shown && now_s - since_s <= shown_s(*shown) ? shown : nullptr;

@@ -13,6 +13,8 @@ struct Message {
   Kind kind = Kind::kInfo;
   std::string text;
   double time_s = 0;  // time by Workspace::clock_s
+  // True: it was waited for, and is shown until it could be read, whatever comes behind or before it.
+  bool stays = false;
 };
 
 // The message that the strip shows: the newest, but not before one that warns could be read. Null: none.

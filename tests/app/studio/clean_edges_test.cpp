@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <string>
 
+#include "app/ui/panels.h"
 #include "hands_on_edges.h"
 
 using namespace splatcut;
@@ -160,8 +161,15 @@ TEST_CASE("hands: edges that an export cleaned are shown in the view that waited
   Export order{{ExportWhat::kObject, SceneFormat::kPly, folder / "apple.ply"}};
   order.request.clean_edges = true;
   hands.studio().run(Action::kIsolate);
+  CHECK(hands.studio().exports().doing() == "");
   hands.studio().apply(order);  // before the view could ask: the worker is busy with the export
+  CHECK(hands.said() == "Exporting apple.ply once edges are clean");
+  const std::string coming = hands.said();
+  CHECK(hands.app.frames_until([&] { return status_text(hands.studio()).starts_with(coming); }));
   REQUIRE(hands.app.settle());
+  CHECK(hands.said().find("apple.ply") != std::string::npos);
+  CHECK(hands.studio().messages().back().stays);
+  CHECK(hands.studio().exports().doing() == "");
   REQUIRE(std::filesystem::exists(folder / "apple.ply"));
   REQUIRE(hands.studio().clean_edges());
   hands.app.frames(3);

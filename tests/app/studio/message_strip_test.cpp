@@ -35,6 +35,25 @@ TEST_CASE(
   CHECK(text_at(messages, 19.6) == "");  // what came before it is not shown after it
 }
 
+TEST_CASE("messages: that a file is written can be read, whatever comes behind or before it") {
+  const auto text_at = [](const std::deque<Message>& messages, double now_s) {
+    const Message* shown = shown_message(messages, now_s);
+    return shown ? shown->text : std::string();
+  };
+  const std::string saved = "apple.ply is saved here";  // 2.4 s
+  std::deque<Message> messages = {{Kind::kDone, saved, 10, true}, {Kind::kInfo, "Now at: a click", 10.1}};
+  CHECK(text_at(messages, 12) == saved);
+  CHECK(text_at(messages, 12.6) == "Now at: a click");
+  messages.push_back({Kind::kError, "disk", 11});  // 1.2 s
+  CHECK(text_at(messages, 11.1) == "disk");
+  messages = {{Kind::kDone, saved, 10, true}, {Kind::kError, "disk", 10.5}};
+  CHECK(text_at(messages, 11) == "disk");
+  CHECK(text_at(messages, 12) == saved);
+  messages = {{Kind::kError, "disk", 9.5}, {Kind::kDone, saved, 10, true}, {Kind::kInfo, "click", 10.2}};
+  CHECK(text_at(messages, 10.5) == "disk");
+  CHECK(text_at(messages, 11) == saved);
+}
+
 TEST_CASE("messages: what is known of an answer later stands beside it, or alone once that is gone") {
   std::deque<Message> messages = {{Kind::kDone, "Mug: 1,200 Gaussians cut out in 0.4 s", 3}};
   REQUIRE(add_to_shown(Kind::kInfo, "Mug: sides in doubt are marked", 4, &messages));
