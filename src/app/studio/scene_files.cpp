@@ -6,8 +6,8 @@
 #include <functional>
 #include <utility>
 
-#include "app/document/carried_document.h"
 #include "app/document/words.h"
+#include "app/workspace/carried_document.h"
 #include "core/error.h"
 
 namespace splatcut {

@@ -73,7 +73,7 @@ TEST_CASE("hands: the eye of a row hides that object in the scene, and shows it 
   CHECK(studio.labels(1) == apple);
 }
 
-TEST_CASE("hands: the eye tells what H hides, and undoes it; H undoes what the eye hid") {
+TEST_CASE("hands: the eye tells what H hides, and undoes it, and H undoes what the eye hid") {
   Hands hands;
   Studio& studio = hands.studio();
   begin_mug(hands);

@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "app/cli/work_cut.h"
-#include "app/document/carried_document.h"
 #include "app/work/work_file.h"
+#include "app/workspace/carried_document.h"
 #include "core/byte_hash.h"
 #include "core/error.h"
 #include "core/json_file.h"

@@ -1,4 +1,4 @@
-#include "app/document/carried_document.h"
+#include "app/workspace/carried_document.h"
 
 #include <algorithm>
 
