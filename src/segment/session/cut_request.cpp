@@ -174,7 +174,10 @@ std::optional<ReferenceView> reference_of(const CutRequest& request,
 std::string key_of(const CutRequest& request) {
   Key key;
   key.list(request.strokes, [&key](const StrokedView& view) { key.stroked(view); });
-  key.cameras(request.left_out);
+  key.list(request.left_out, [&key](Camera view) {  // told apart by same_view() alone
+    view.most_near_plane = Camera().most_near_plane;
+    key.camera(view);
+  });
   add_given(request, &key);
   return key.take();
 }
