@@ -57,13 +57,14 @@ Covered covered_by_message(const UiContext& ui, const UiRect& picture) {
   };
   out.marks = ui.state.badges;
   for (const StrokeMark& mark : studio.viewport().marks()) out.marks.push_back(screen_of(mark.at_px));
-  const Flags& labels = studio.viewport().active_labels();
+  // As they are by now: the picture may still show those before the message.
+  const std::vector<std::uint8_t> labels = studio.labels(studio.document().active);
   const GaussianCloud& cloud = *studio.scene()->cloud;
-  if (!labels || labels->size() != cloud.size()) return out;
+  if (labels.size() != cloud.size()) return out;
   const Camera camera = studio.viewport().pane_camera();
   const std::size_t step = 1 + studio.gaussians_of(studio.document().active) / kMostCovered;
-  for (std::size_t g = 0, counted = 0; g < labels->size() && out.object.size() < kMostCovered; ++g) {
-    if (!(*labels)[g] || counted++ % step != 0) continue;
+  for (std::size_t g = 0, counted = 0; g < labels.size() && out.object.size() < kMostCovered; ++g) {
+    if (!labels[g] || counted++ % step != 0) continue;
     const glm::vec3 seen = camera.camera_from_world(cloud.position[g]);
     if (!(seen.z > studio.viewport().draw_limits().near_plane)) continue;
     out.object.push_back(screen_of(camera.pixel_from_camera(seen)));
