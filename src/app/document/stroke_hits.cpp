@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <utility>
 
 namespace splatcut {
 
 DrawnPart drawn_part_of(std::shared_ptr<const GaussianCloud> cloud,
                         std::shared_ptr<const CloudBlocks> blocks) {
-  return [cloud, blocks](const Camera& camera, const PixelRect& part, const Flags& visible) {
+  return [cloud = std::move(cloud), blocks = std::move(blocks)](const Camera& camera, const PixelRect& part,
+                                                                const Flags& visible) {
     RasterOptions options;
     options.colour = false;
     options.depth = true;
