@@ -123,8 +123,8 @@ bool is_without_others(const Document& document, const ObjectItem& object, std::
 // Sets ObjectItem::of_others, with nothing on its way. What hands took of that is left to the others, too;
 // what hands had taken of what was left before is the object's again.
 void set_of_others(ObjectItem* object, Flags of_others);
-// The object shares with whoever has most of what a stroke hits; where nobody has that any more, it leaves no
-// more of what nobody has. What it leaves to others stays theirs. of_others: not null.
+// Lets the object take what those others have who have most of what a stroke hits; where none has it any
+// more, all that none has. What it leaves to the remaining ones stays theirs. of_others: not null.
 void share_what_is_hit(const Document& document, ObjectItem* object, std::span<const std::int32_t> hits,
                        std::size_t gaussians);
 // Sets it to nothing but what locked ones keep.

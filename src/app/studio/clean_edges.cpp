@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "app/document/export_plan.h"
 #include "app/document/words.h"
 
@@ -51,7 +53,8 @@ void CleanEdges::ask(bool fills) {
   if (!seen_) return;
   const Asked now = asked(fills);
   if (known(now)) {  // an export made it, too
-    if (shows(fills) && viewport_.styles().unfinished) ++ws_.view_serial;
+    const bool waits = shows(fills) && viewport_.style_current() && viewport_.styles().unfinished;
+    if (waits && std::exchange(shown_again_[fills ? 1 : 0], now) != now) ++ws_.view_serial;
     return;
   }
   if (given_up(fills) == now || !ws_.tasks.idle()) return;

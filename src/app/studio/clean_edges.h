@@ -48,10 +48,12 @@ class CleanEdges {
   const Viewport& viewport_;
   const CutJobs& cuts_;
   std::array<Asked, 2> given_up_;  // what was cancelled, or failed, since the view last began to show it
-  std::array<bool, 2> shown_{};    // shows() at the last update()
-  bool fills_ = false;             // which was started last
-  Flags seen_;                     // labels at the last update()
-  double seen_since_s_ = 0;        // clock time since which labels and worker are quiet
+  // What the view was last drawn anew for: once each, as a preview of a cut has no clean edges to wait for.
+  std::array<Asked, 2> shown_again_;
+  std::array<bool, 2> shown_{};  // shows() at the last update()
+  bool fills_ = false;           // which was started last
+  Flags seen_;                   // labels at the last update()
+  double seen_since_s_ = 0;      // clock time since which labels and worker are quiet
 };
 
 }  // namespace splatcut

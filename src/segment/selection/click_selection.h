@@ -86,8 +86,8 @@ class ClickSelection {
   std::span<const Mask> size_masks() const;  // of each size, in that stroke's view
   // Leaves of the masks of sizes what lies in this part of the last stroke's view.
   void crop_sizes(const PixelRect& part);
-  // The strokes so far say these labels, leaf by leaf as most of its Gaussians have them; but for Gaussians
-  // that discs have decided. labels: per Gaussian, 1 = object.
+  // Gives each leaf the label that most of its Gaussians have, in place of what the strokes so far say.
+  // Gaussians that discs have decided keep theirs. labels: per Gaussian, 1 = object.
   void carry(std::span<const std::uint8_t> labels);
   // The last stroke was made before one that is in `other` already: its sizes are those to choose from.
   void keep_sizes_of(const ClickSelection& other) { sizes_ = other.sizes_; }

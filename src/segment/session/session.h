@@ -9,13 +9,13 @@
 //      as large.
 //   2. After each stroke, and again after the cut: while what is labelled touches the cell's side, or a
 //      stroke on the object hits what lies outside, the next cell is twice as large, about both. A cell
-//      that holds most of the scene is the scene. A first answer is shown while it grows. What the strokes
-//      before the one that needs a larger cell have given was shown and corrected, so it stays: where they
-//      would mean something else there, their labels are carried over, leaf by leaf. Other meanings of the
-//      first click, mostly one of which is the floor or a wall, make the cell grow when they are taken: they
-//      are offered where the likeliest is answered, and found again in the larger cell by their labels. So
-//      are other sizes of the last stroke, each a step from the one before, in the cell in which that is
-//      answered.
+//      that holds most of the scene is the scene. A first answer is shown while it grows. If a later stroke
+//      needs the larger cell, the user has seen what the strokes before it gave. So that stays: where these
+//      strokes would mean something else there, their labels are carried over, leaf by leaf. Other meanings
+//      of the first click, mostly one of which is the floor or a wall, make the cell grow when they are
+//      taken: they are offered where the likeliest is answered, and found again in the larger cell by their
+//      labels. So are other sizes of the last stroke, each a step from the one before, in the cell in which
+//      that is answered.
 // Strokes on the rest that hit nothing of the cell change nothing: there is no object there. A path on the
 // rest counts as the pieces of it that hit the cell. Cuts from pixels alone (the baselines) look at the whole
 // scene. What a request asks for among some of the Gaussians is asked of a session on these

@@ -28,6 +28,21 @@ namespace {
 constexpr int kLevels = 5;
 constexpr double kMostPixels = 0.001;
 
+// The program with the small sample open, drawn by a renderer.
+struct DrawnBy {
+  explicit DrawnBy(RendererChoice renderer) : app(760, 420, 1, by(renderer)) {
+    app.interface_state().hint_wanted = false;
+    app.open(kSmallSample);
+    REQUIRE(app.settle());
+  }
+  static ApplicationOptions by(RendererChoice renderer) {
+    ApplicationOptions options = with_kept_scenes();
+    options.renderer = renderer;
+    return options;
+  }
+  HeadlessApp app;
+};
+
 void check_golden(const std::string& name, const Image<Rgb8>& picture) {
   const std::filesystem::path golden =
       std::filesystem::path(project_folder() + "/tests/goldens") / (name + ".png");
@@ -104,12 +119,8 @@ TEST_CASE("frames: the sample with the hint, the keys, twice the scale") {
 TEST_CASE("frames: the OpenGL renderer shows what the CPU renderer shows") {
   Image<Rgb8> pictures[2];
   for (const RendererChoice renderer : {RendererChoice::kCpu, RendererChoice::kGl}) {
-    ApplicationOptions options = with_kept_scenes();
-    options.renderer = renderer;
-    HeadlessApp app(760, 420, 1, options);
-    app.interface_state().hint_wanted = false;
-    app.open(kSmallSample);
-    REQUIRE(app.settle());
+    DrawnBy drawn(renderer);
+    HeadlessApp& app = drawn.app;
     app.studio().apply(EditSelection{SelectionEdit::kAll});  // the tint, too
     ViewState view = app.studio().view();
     view.outline = false;  // drawn with other filters
@@ -134,12 +145,8 @@ TEST_CASE("frames: the OpenGL renderer shows what the CPU renderer shows") {
 TEST_CASE("frames: OpenGL draws the checker as the CPU does, moving or still, on one pane or two") {
   constexpr int kTop = 84;  // of the picture: below the tool's options and the label
   const auto checker_frame = [](RendererChoice renderer, bool two, bool moving) {
-    ApplicationOptions options = with_kept_scenes();
-    options.renderer = renderer;
-    HeadlessApp app(760, 420, 1, options);
-    app.interface_state().hint_wanted = false;
-    app.open(kSmallSample);
-    REQUIRE(app.settle());
+    DrawnBy drawn(renderer);
+    HeadlessApp& app = drawn.app;
     Studio& studio = app.studio();
     // A few Gaussians alone: nearly all of the picture is checker.
     Mask spot(studio.viewport().pane_camera().width_px, studio.viewport().pane_camera().height_px);
@@ -203,12 +210,8 @@ using ChangedPixels = std::vector<std::uint8_t>;
 ChangedPixels changed_by(RendererChoice renderer, const std::function<void(HeadlessApp&)>& objects,
                          const std::function<void(Studio&)>& style) {
   constexpr int kVisible = 10;  // levels
-  ApplicationOptions options = with_kept_scenes();
-  options.renderer = renderer;
-  HeadlessApp app(760, 420, 1, options);
-  app.interface_state().hint_wanted = false;
-  app.open(kSmallSample);
-  REQUIRE(app.settle());
+  DrawnBy drawn(renderer);
+  HeadlessApp& app = drawn.app;
   objects(app);
   ViewState view = app.studio().view();
   view.tint = view.outline = false;
