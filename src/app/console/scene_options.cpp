@@ -33,7 +33,10 @@ Scene SceneOptions::load(const std::filesystem::path& scene, const std::filesyst
   if (!cameras.empty()) options.cameras = load_cameras(cameras);
   Scene loaded = load_scene(scene, options, job);
   if (called.empty()) check_axes({&loaded, 1});
-  for (const std::string& remark : remarks(loaded))
+  std::vector<std::string> said = remarks(loaded);
+  if (const std::string of_folder = remark_on_folder(scene, loaded); !of_folder.empty())
+    said.insert(said.begin(), of_folder);
+  for (const std::string& remark : said)
     warn(called.empty() ? remark : fmt::format("{}: {}", called, remark), quiet);
   return loaded;
 }

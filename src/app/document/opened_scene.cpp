@@ -100,8 +100,9 @@ Scene load(SceneSource* file, const OpenedScene* before, const Job& job, std::ve
     throw Error(scene.path.string(), "was changed by another program since it was opened", "Open it again");
   const bool asked = file->spz_axes.has_value();
   const bool said = file->levels.gaussians.size() > 1;  // that levels are left out
-  for (const std::string& remark : {said ? std::string() : scene.left_out, of_cameras, scene.oddity,
-                                    asked ? std::string() : scene.axes_note})
+  for (const std::string& remark :
+       {remark_on_folder(file->path, scene), said ? std::string() : scene.left_out, of_cameras, scene.oddity,
+        asked ? std::string() : scene.axes_note})
     if (!known && !remark.empty()) remarks->push_back(remark);
   file->path = scene.path;
   file->spz_axes = scene.taken_axes;
@@ -160,7 +161,7 @@ std::string remark_on_level(const SceneLevels& levels, unsigned level,
 
 std::vector<Camera> cameras_near(const std::filesystem::path& scene, const glm::dvec3& origin,
                                  std::string* why_none) {
-  std::filesystem::path folder = std::filesystem::absolute(scene).parent_path();
+  std::filesystem::path folder = std::filesystem::absolute(scene_file_in(scene)).parent_path();
   for (int level = 0; level < 3; ++level) {
     for (const char* name : {"cameras.json", "transforms.json", "sparse/0"}) {
       std::error_code hidden;  // another user's folder, a link to itself

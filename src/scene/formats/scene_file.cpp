@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <charconv>
 
 #include "core/atomic_file.h"
 #include "core/error.h"
@@ -41,25 +42,24 @@ SceneFormat format_of(const MappedFile& file) {
               "Give a scene file, or a folder with meta.json, lod-meta.json, .lcc or .lcc2");
 }
 
-// A folder stands for the scene of several files in it. Where there are both, meta.json needs no other
-// folders.
-std::filesystem::path in_folder(const std::filesystem::path& path) {
-  std::error_code ignored;
-  if (!std::filesystem::is_directory(path, ignored)) return path;
-  for (const char* name : {"meta.json", "lod-meta.json", "meta.lcc", "meta.lcc2"})
-    if (std::filesystem::exists(path / name, ignored)) return path / name;
-  std::filesystem::path first;  // by name: the order in a folder is the system's
-  std::vector<std::string> scenes;
+// The last iteration of a trainer's folder, point_cloud/iteration_N/point_cloud.ply, or an empty path.
+std::filesystem::path last_iteration(const std::filesystem::path& folder) {
+  constexpr std::string_view kIteration = "iteration_";
+  std::filesystem::path last;
+  unsigned long last_number = 0;
   std::error_code trouble;
-  for (std::filesystem::directory_iterator at(path, trouble), end; !trouble && at != end;
+  for (std::filesystem::directory_iterator at(folder / "point_cloud", trouble), end; !trouble && at != end;
        at.increment(trouble)) {
-    if (lower_case(at->path().extension().string()).starts_with(".lcc") &&
-        (first.empty() || at->path() < first))
-      first = at->path();
-    if (has_scene_extension(at->path())) scenes.push_back(at->path().filename().string());
+    const std::string name = at->path().filename().string();
+    const std::filesystem::path scene = at->path() / "point_cloud.ply";
+    std::error_code ignored;
+    if (!name.starts_with(kIteration) || !std::filesystem::is_regular_file(scene, ignored)) continue;
+    unsigned long number = 0;
+    std::from_chars(name.data() + kIteration.size(), name.data() + name.size(), number);
+    if (last.empty() || number > last_number) last = scene;
+    last_number = std::max(last_number, number);
   }
-  if (first.empty() && !trouble) refuse_folder(path, std::move(scenes));
-  return first.empty() ? path : first;
+  return last;
 }
 
 std::vector<std::uint32_t> kept_in_file_order(const GaussianCloud& cloud,
@@ -113,6 +113,39 @@ std::string oddity_of(const GaussianCloud& cloud) {
 
 }  // namespace
 
+std::filesystem::path scene_file_in(const std::filesystem::path& path) {
+  std::error_code ignored;
+  if (!std::filesystem::is_directory(path, ignored)) return path;
+  // Where there are both, meta.json needs no other folders.
+  for (const char* name : {"meta.json", "lod-meta.json", "meta.lcc", "meta.lcc2"})
+    if (std::filesystem::exists(path / name, ignored)) return path / name;
+  if (const std::filesystem::path last = last_iteration(path); !last.empty()) return last;
+  std::filesystem::path first;  // by name: the order in a folder is the system's
+  std::vector<std::string> scenes;
+  std::error_code trouble;
+  for (std::filesystem::directory_iterator at(path, trouble), end; !trouble && at != end;
+       at.increment(trouble)) {
+    if (lower_case(at->path().extension().string()).starts_with(".lcc") &&
+        (first.empty() || at->path() < first))
+      first = at->path();
+    const std::string name = at->path().filename().string();
+    if (has_scene_extension(at->path()) && !name.starts_with('.') && at->is_regular_file(ignored))
+      scenes.push_back(name);
+  }
+  if (!first.empty() || trouble) return first.empty() ? path : first;
+  if (scenes.size() != 1) refuse_folder(path, std::move(scenes));
+  return path / scenes.front();
+}
+
+std::string remark_on_folder(const std::filesystem::path& given, const Scene& scene) {
+  std::error_code ignored;
+  const std::string name = scene.path.lexically_relative(given).generic_string();
+  const bool several = name.ends_with(".json") || lower_case(name).find(".lcc") != std::string::npos;
+  if (several || !std::filesystem::is_directory(given, ignored)) return {};
+  return name.find('/') == std::string::npos ? name + " is read, the only scene in the folder"
+                                             : name + " is read, the last iteration in the folder";
+}
+
 const char* name_of(SpzAxes axes) {
   return axes == SpzAxes::kPly ? "ply" : "rub";
 }
@@ -136,7 +169,7 @@ Scene with_cloud(const Scene& scene, GaussianCloud cloud) {
 }
 
 Scene load_scene(const std::filesystem::path& path, const LoadOptions& options, const Job& job) {
-  const MappedFile file(in_folder(path));
+  const MappedFile file(scene_file_in(path));
   Scene scene;
   scene.path = file.path();
   scene.files = {file.path()};
@@ -161,7 +194,7 @@ Scene load_scene(const std::filesystem::path& path, const LoadOptions& options, 
 }
 
 SceneLevels levels_of(const std::filesystem::path& path) {
-  const MappedFile file(in_folder(path));
+  const MappedFile file(scene_file_in(path));
   const SceneFormat format = format_of(file);
   return format.levels ? format.levels(file) : SceneLevels{};
 }

@@ -66,6 +66,12 @@ struct LoadOptions {
   std::optional<glm::dvec3> origin = {};
 };
 
+// The file to read where a folder may be given: its scene of several files, else a trainer's last iteration
+// (point_cloud/iteration_N/point_cloud.ply), else its only scene file. Any other path as it is. Throws Error.
+std::filesystem::path scene_file_in(const std::filesystem::path& path);
+// Which of a given folder's files was read, as a sentence; empty where it is clear.
+std::string remark_on_folder(const std::filesystem::path& given, const Scene& scene);
+
 // The levels of detail of a scene that has several; of others none. Throws Error.
 SceneLevels levels_of(const std::filesystem::path& path);
 // The finest that memory_of_scene() says to fit, else the coarsest.

@@ -109,6 +109,9 @@ TEST_CASE("wrong usage exits with 2, a thing that cannot be done with 1 and a se
   place.write("short.ply", place.text("made/small.ply").substr(0, 100000));
   place.write("bad.json", "{");
   place.write("empty.ply", "");
+  place.make_folder("pair");
+  place.write("pair/a.ply", "a");
+  place.write("pair/b.ply", "b");
   const auto refused = [&](const std::string& arguments, std::initializer_list<const char*> parts) {
     const Result result = place.run(arguments);
     CAPTURE(arguments);
@@ -119,7 +122,11 @@ TEST_CASE("wrong usage exits with 2, a thing that cannot be done with 1 and a se
     for (const char* part : parts) CHECK(result.err.find(part) != std::string::npos);
   };
   refused("info none.ply", {"none.ply", "No such file"});
-  refused("info made", {"made", "this folder is no scene by itself", "small.ply"});
+  const Result folder = place.run("info made");
+  CHECK_MESSAGE(folder.code == 0, folder.err);
+  CHECK_MESSAGE(folder.err.find("small.ply is read, the only scene in the folder") != std::string::npos,
+                folder.err);
+  refused("info pair", {"pair", "this folder is no scene by itself", "a.ply, b.ply"});
   refused("info empty.ply", {"empty.ply", "empty"});
   refused("info points.ply", {"points.ply", "ordinary point cloud"});
   refused("info short.ply", {"short.ply", "truncated", "row", "byte"});

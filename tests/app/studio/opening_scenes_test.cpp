@@ -2,6 +2,7 @@
 // and a scene that cannot be opened ends nothing.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -175,4 +176,20 @@ TEST_CASE("opening what cannot be read ends no work, and the question before say
   CHECK(app.studio().messages().back().text.find("text.ply: this is not a .ply file") != std::string::npos);
   CHECK(same(app.studio().document(), work));
   CHECK(app.studio().unsaved());
+}
+
+TEST_CASE(
+    "a folder with one scene file is opened as that file, with the cameras beside it, and it is named") {
+  const ScratchFolder folder("folder_of_one");
+  std::filesystem::copy_file(kSmallSample, folder.path() / kSmallSample.filename());
+  std::filesystem::copy_file(kSampleFolder / "cameras.json", folder / "cameras.json");
+  HeadlessApp app(kSmallWidth, kSmallHeight);
+  app.open(folder.path());
+  REQUIRE(app.settle());
+  REQUIRE(app.studio().scene());
+  CHECK(app.studio().scene()->scene->path == folder / kSmallSample.filename());
+  CHECK_FALSE(app.studio().scene()->views().cameras.empty());
+  CHECK(std::ranges::any_of(app.studio().messages(), [](const Message& message) {
+    return message.text.find("the only scene in the folder") != std::string::npos;
+  }));
 }

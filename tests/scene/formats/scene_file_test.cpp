@@ -316,3 +316,22 @@ TEST_CASE("scene file: a folder that is none says which of its files may be one"
   for (const char* name : {"c.ply", "d.ply", "e.ply"}) write(folder / name, "x");
   CHECK(mentions(refusal(folder.path), {"a.spz, b.ply, c.ply and 2 more"}));
 }
+
+TEST_CASE("scene file: a folder stands for the only scene file in it, or for its last iteration") {
+  const Folder folder;
+  const auto remark = [&] { return remark_on_folder(folder.path, load_scene(folder.path)); };
+  const std::string scene = numbered_ply(splat_names(0), 10);
+  for (const char* name : {"notes.txt", ".b.ply", "cameras.json"}) write(folder / name, "x");
+  fs::create_directory(folder / "c.ply");
+  write(folder / "a.ply", scene);
+  CHECK(load_scene(folder.path).path == folder / "a.ply");
+  CHECK(remark() == "a.ply is read, the only scene in the folder");
+  CHECK(remark_on_folder(folder / "a.ply", load_scene(folder / "a.ply")).empty());
+  write(folder / "input.ply", scene);
+  for (const char* iteration : {"iteration_7000", "iteration_30000", "iteration_best", "iteration_40000"})
+    fs::create_directories(folder / "point_cloud" / iteration);
+  for (const char* iteration : {"iteration_7000", "iteration_30000"})
+    write(folder / "point_cloud" / iteration / "point_cloud.ply", scene);
+  CHECK(load_scene(folder.path).path == folder / "point_cloud/iteration_30000/point_cloud.ply");
+  CHECK(remark() == "point_cloud/iteration_30000/point_cloud.ply is read, the last iteration in the folder");
+}
