@@ -1,4 +1,5 @@
 #include "app/studio/studio.h"
+#include "app/document/words.h"
 
 #include <algorithm>
 #include <chrono>
@@ -313,14 +314,21 @@ void Studio::perform(const SetView& c) {
   ++ws_.view_serial;
 }
 
+// By buttons and the axes over the picture.
+void Studio::refuse_while_drawing() const {
+  if (ws_.tools.at_work()) throw Error("", as_sentence(std::string(kViewStays)));
+}
+
 void Studio::perform(const GoToCamera& c) {
   ws_.require_scene();
+  refuse_while_drawing();
   camera().go_to(c.camera);
   if (!c.camera.name.empty()) ws_.say(Message::Kind::kInfo, "Camera " + c.camera.name);
 }
 
 void Studio::perform(const LookAlong& c) {
   ws_.require_scene();
+  refuse_while_drawing();
   if (!(glm::length(c.direction_world) > 0)) throw Error("", "That is no direction");
   camera().finish_transition();
   const std::vector<glm::vec3> points = viewport_.object_points();

@@ -28,6 +28,9 @@
 
 namespace splatcut {
 
+// Of what would put the view elsewhere then.
+inline constexpr std::string_view kViewStays = "the view stays while a shape is drawn over it";
+
 class Studio {
  public:
   explicit Studio(const StudioOptions& options);
@@ -125,6 +128,7 @@ class Studio {
   void perform(const SetUp& c);
   void perform(const NewObject& c);
   void perform(const SetView& c);
+  void refuse_while_drawing() const;
   void perform(const GoToCamera& c);
   void perform(const SetFieldOfView& c);
   void perform(const LookAlong& c);

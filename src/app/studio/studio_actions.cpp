@@ -193,6 +193,7 @@ std::string Studio::why_not(Action action) const {
   if (action == Action::kNone) return {};
   const ActionRow* row = row_of(action);
   if (!row) return without_scene(*this);  // tools; flight keys act while they are held
+  if (goes_to_view(action) && ws_.tools.at_work()) return std::string(kViewStays);
   return row->why_not ? row->why_not(*this) : "";
 }
 
@@ -269,7 +270,7 @@ void Studio::run(Action action) {
   if (row && row->waits == ActionRow::kForCuts && cuts_.next() != 0)
     return edits_.after_cuts(short_name_of(action), [this, action] { run(action); });
   if (const std::string reason = why_not(action); !reason.empty()) {
-    if (hold_for_cut(action)) return;
+    if (reason != kViewStays && hold_for_cut(action)) return;
     const bool hint = action == Action::kConfirm;  // pressed by the way; nothing is wrong
     const bool of_sizes = action == Action::kPartLarger || action == Action::kPartSmaller;
     ws_.say(hint ? Message::Kind::kInfo : Message::Kind::kRefused,

@@ -70,6 +70,7 @@ std::vector<Command> PointerTools::move(const glm::vec2& pixel, const Modifiers&
     drag_ = state_.right() ? Drag::kPan : Drag::kOrbit;
     if (drag_ == Drag::kOrbit) keep_pivot_in_sight(context);
   }
+  if (moves_camera() && at_work()) return {};  // as for the wheel
   if (drag_ == Drag::kOrbit) context.camera.orbit(delta / per_point);
   if (drag_ == Drag::kPan)
     context.camera.pan(delta,

@@ -1,6 +1,8 @@
 // The view stays under a shape while it is drawn, and a drag ends with its scene.
 #include <doctest/doctest.h>
 
+#include <functional>
+
 #include "hands.h"
 
 using namespace splatcut;
@@ -79,4 +81,38 @@ TEST_CASE("still view: a drag of the camera goes on in the scene that comes") {
   CHECK(hands.studio().tools().dragging());
   hands.app.release(PointerButton::kMiddle);
   CHECK_FALSE(hands.studio().tools().dragging());
+}
+
+TEST_CASE("still view: keys, axes and drags that put the view elsewhere are refused until a shape is drawn") {
+  Hands hands;
+  const glm::vec2 from = hands.app.screen_of(kOnApple), to = hands.app.screen_of(kOnOrange);
+  const auto stays = [&](const std::function<void()>& act) {
+    const CameraPose before = hands.studio().camera().goal();
+    act();
+    REQUIRE(hands.app.settle());
+    return hands.studio().camera().goal() == before;
+  };
+  const auto all_stay = [&] {
+    for (const int code : {int{'F'}, key::kHome, int{'N'}, int{'P'}}) {
+      CAPTURE(code);
+      CHECK(stays([&] { hands.app.key(code); }));
+      CHECK(hands.said().find("the view stays while a shape is drawn") != std::string::npos);
+    }
+    CHECK(stays([&] { hands.studio().apply(LookAlong{{0, 0, 1}}); }));
+  };
+  hands.app.key('7');
+  hands.app.move(from);
+  hands.app.press(PointerButton::kLeft);
+  hands.app.move(to);
+  all_stay();
+  hands.app.key(key::kEscape);
+  hands.app.release(PointerButton::kLeft);
+  hands.app.key('8');
+  hands.app.click(from);
+  hands.app.click(to);
+  REQUIRE(hands.studio().tools().at_work());
+  all_stay();
+  CHECK(stays([&] { hands.app.drag({to, to + glm::vec2(60, 0)}, PointerButton::kMiddle); }));
+  hands.app.key(key::kEscape);
+  for (const int code : {int{'F'}, key::kHome, int{'N'}}) CHECK_FALSE(stays([&] { hands.app.key(code); }));
 }
