@@ -122,6 +122,7 @@ void start_page(UiContext& ui, const UiRect& area) {
   const float top = std::min(std::max(area.min.y + kMargin, middle.y - 150), area.max.y - kMargin - size.y);
   ImGui::SetCursorScreenPos({middle.x - size.x / 2, top});
   ImGui::BeginChild("start", vec(size));
+  tooltips_beside_window();  // below an entry it would cover the next
   const auto left_work = [&] {
     if (ui.studio.work().offers().empty()) return;
     ImGui::Dummy({0, 4});

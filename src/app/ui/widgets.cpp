@@ -90,6 +90,8 @@ bool tolerance_slider(UiContext& ui, float* share) {
 
 namespace {
 
+const ImGuiID kBesideWindow = ImHashStr("tooltips beside");  // key of a window's storage
+
 // Where a tooltip of that size covers nothing that one moves on to: beside a column or a menu, under or over
 // a row.
 ImVec2 tooltip_place(const ImVec2& size, const UiRect& message) {
@@ -102,7 +104,10 @@ ImVec2 tooltip_place(const ImVec2& size, const UiRect& message) {
       (window.Flags & ImGuiWindowFlags_Popup) != 0 && (window.Flags & ImGuiWindowFlags_Modal) == 0;
   const bool rows = around.GetHeight() > 2 * ImGui::GetFrameHeightWithSpacing();
   ImVec2 at;
-  if (rows && (menu || around.GetHeight() > around.GetWidth())) {
+  if (ImGuiWindow& own = *ImGui::GetCurrentWindow(); own.StateStorage.GetBool(kBesideWindow)) {
+    at = {own.Rect().Max.x + kTooltipGap, from.y};
+    if (at.x + size.x > screen.x) at = own.Pos;  // over its heading
+  } else if (rows && (menu || around.GetHeight() > around.GetWidth())) {
     const bool to_the_left = around.GetCenter().x > screen.x / 2;
     at = {to_the_left ? around.Min.x - kTooltipGap - size.x : around.Max.x + kTooltipGap, from.y};
   } else {
@@ -117,6 +122,10 @@ ImVec2 tooltip_place(const ImVec2& size, const UiRect& message) {
 }
 
 }  // namespace
+
+void tooltips_beside_window() {
+  ImGui::GetCurrentWindow()->StateStorage.SetBool(kBesideWindow, true);
+}
 
 void tooltip(const std::string& text, const UiRect& message, const TipPicture& picture) {
   if (text.empty() || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;

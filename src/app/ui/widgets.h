@@ -76,6 +76,8 @@ struct TipPicture {
   ImTextureID texture = {};
   ImVec2 size{0, 0};  // points; 0: none
 };
+// Of the current window's items: they lie beside it, where else one would cover the item below.
+void tooltips_beside_window();
 // Of the last item. message: it stays above that. picture: it stands over the text.
 void tooltip(const std::string& text, const UiRect& message = {}, const TipPicture& picture = {});
 // At the pointer, inside of a part of the screen.

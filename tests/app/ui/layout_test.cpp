@@ -269,6 +269,32 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("ui: a tooltip of the start page covers no entry of it") {
+  for (const glm::ivec2& size : {glm::ivec2(640, 480), {1000, 700}}) {
+    CAPTURE(size.x);
+    ApplicationOptions options;
+    options.sample = kSample;
+    HeadlessApp app(size.x, size.y, 1, options);
+    app.interface_state().recent = {kSample, kSmallSample, "/captures/garden/point_cloud/point_cloud.ply"};
+    app.frames(3);
+    const UiRect view = app->interface().viewport();
+    const float row = ImGui::GetFrameHeight();
+    std::size_t tips = 0;
+    for (float y = view.min.y; y < view.max.y; y += 4) {
+      const glm::vec2 at(0.5f * (view.min.x + view.max.x) - 190, y);
+      app.move(at);
+      app.frames(3);
+      app->interface().make_current();
+      const ImGuiWindow* tip = ImGui::FindWindowByName("##Tooltip_00");
+      if (!tip || !tip->WasActive) continue;
+      ++tips;
+      // The entries stand below each other at the left of the page.
+      CHECK_FALSE(tip->Rect().Overlaps({{at.x, at.y - row}, {at.x + 1, at.y + row}}));
+    }
+    CHECK(tips > 6);
+  }
+}
+
 TEST_CASE("ui: a tooltip covers no other button of its bar, and lies within the window") {
   for (const glm::ivec2& size : {glm::ivec2(640, 480), {1000, 700}, {1400, 860}}) {
     CAPTURE(size.x);
