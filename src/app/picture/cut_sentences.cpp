@@ -40,6 +40,33 @@ bool changed_little(const std::vector<std::uint8_t>& before, const std::vector<s
   return static_cast<double>(changed) < kLittle * static_cast<double>(is);
 }
 
+std::size_t waiting_strokes(const History& history, ObjectId object) {
+  std::size_t waiting = 0;
+  for (std::size_t i = history.cursor() + 1; i-- > 0; ++waiting) {
+    const Document& then = history.entries()[i].document;
+    const ObjectItem* item = then.find(object);
+    if (!item || item->views.empty() || !is_stale(then, *item)) break;
+  }
+  return waiting;
+}
+
+std::size_t small_removals(const History& history, ObjectId object, std::size_t gaussians) {
+  constexpr std::size_t kMostAsked = 3;
+  std::size_t found = 0;
+  for (std::size_t i = history.cursor(); i > 0 && found < kMostAsked; --i, ++found) {
+    const Document &then = history.entries()[i].document, &last = history.entries()[i - 1].document;
+    const ObjectItem *is = then.find(object), *was = last.find(object);
+    if (!is || !was || stroke_count(*is) != stroke_count(*was) + 1 || is_stale(then, *is) ||
+        is_stale(last, *was))
+      break;
+    const Stroke* stroke = last_stroke(is->views);
+    if (!stroke->is_click() || stroke->label != SeedLabel::kRest ||
+        !changed_little(labels_of(last, *was, gaussians), labels_of(then, *is, gaussians)))
+      break;
+  }
+  return found;
+}
+
 std::string why_so_already(const CutRequest& request, const CutResult& result, bool little_changed) {
   const bool adds = !last_takes_away(request.strokes);
   return std::string(!adds ? "that place does not belong to it as it is. To remove more, right-click a piece "

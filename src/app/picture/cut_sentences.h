@@ -21,6 +21,12 @@ bool is_of_stroke(const History& history);  // the last that was done is a strok
 // Less of the object than can be seen. before, after: as above.
 bool changed_little(const std::vector<std::uint8_t>& before, const std::vector<std::uint8_t>& after);
 
+// Strokes at the history's end that the object's next cut computes together, as no cut of them is there yet.
+std::size_t waiting_strokes(const History& history, ObjectId object);
+
+// Right clicks in a row, up to 3, each of which changed little of the object, up to the last step.
+std::size_t small_removals(const History& history, ObjectId object, std::size_t gaussians);
+
 // Of a last click that asks for what is so already: that it does, and what to do for more. little_changed:
 // some of that place was not so.
 std::string why_so_already(const CutRequest& request, const CutResult& result, bool little_changed = false);

@@ -74,7 +74,11 @@ void Clicks::perform(const AddStroke& c) {
   if (asks_what_is_hit(ws_.document(), c.stroke.label, ws_.context()))
     made.hits = viewport_.hit_by({c.camera, c.stroke, c.seen});
   Document after = ws_.document();
-  const std::string message = edit(&after, made, ws_.context());
+  std::string message = edit(&after, made, ws_.context());
+  const ObjectItem* object = ws_.document().active_object();
+  if (const std::size_t waiting =
+          object && cuts_.comes(*object) ? waiting_strokes(ws_.history, object->id) : 0)
+    message += fmt::format(". {} strokes wait and are computed together", waiting + 1);
   const bool adds = c.stroke.label == SeedLabel::kObject && same_camera(c.camera, viewport_.pane_camera());
   const auto on = adds ? viewport_.pick(c.stroke.points_px.front()) : std::nullopt;
   // The view turns around what was clicked; around the object as long as that is alone.

@@ -9,6 +9,7 @@
 #include "app/document/words.h"
 #include "app/picture/cut_pictures.h"
 #include "app/picture/cut_sentences.h"
+#include "app/tools/actions.h"
 #include "core/error.h"
 #include "core/stage_clock.h"
 #include "segment/session/doubts.h"
@@ -382,7 +383,13 @@ void CutJobs::finish(const Order& order, CutRun run, const Flags& labels) {
   // What left is no part of the place that was clicked, which shows something else: hovering agrees.
   const bool beside =
       last_stroke(order.request.strokes)->label == SeedLabel::kRest && *before != *labels_now();
-  const std::string but = !doubt.empty() ? doubt
+  // Once: from the third on it was said, and is no worse a way.
+  const bool piecemeal = beside && small_removals(ws_.history, order.object, ws_.gaussians()) == 2;
+  const std::string but = piecemeal ? fmt::format(
+                                          "clicks there take little each: with Scribble ({}) hold the "
+                                          "right button and drag across all that does not belong",
+                                          keys_of(Action::kToolScribble))
+                          : !doubt.empty() ? doubt
                           : little && beside
                               ? "that lay beside the clicked place. To remove more, right-click where the "
                                 "outline is red"

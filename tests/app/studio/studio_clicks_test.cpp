@@ -445,3 +445,41 @@ TEST_CASE(
   CHECK(box({720, 400}, {850, 530}).find("begun before") == std::string::npos);
   CHECK(artist.studio().document().active == 2);
 }
+
+TEST_CASE("clicks: made while others are computed, they are said to wait, and how many") {
+  Artist artist(on_sample("apple", kOnApple));
+  const Camera camera = artist.studio().viewport().pane_camera();
+  const glm::vec2 middle = artist.studio().viewport().pane_camera().pixel_from_camera({0, 0, 1});
+  const auto said_after = [&](SeedLabel label, float right) {
+    artist.studio().apply(AddStroke{camera, {label, 4, {middle + glm::vec2(right, 0)}}});
+    return artist.said();
+  };
+  CHECK(said_after(SeedLabel::kObject, 0).find("wait") == std::string::npos);
+  CHECK(said_after(SeedLabel::kRest, 30).find("2 strokes wait") != std::string::npos);
+  CHECK(said_after(SeedLabel::kRest, 60).find("3 strokes wait") != std::string::npos);
+  REQUIRE(artist.app.settle());
+  CHECK(said_after(SeedLabel::kRest, -30).find("wait") == std::string::npos);
+  REQUIRE(artist.app.settle());
+}
+
+TEST_CASE("clicks: after a second right click that took little, a scribble is advised, once") {
+  Artist artist(on_sample("apple", kOnApple));
+  artist.click_on_it();
+  int in_a_row = 0, advised = 0;
+  // Four of them take little, one takes more, and two little again.
+  for (const glm::vec2& by :
+       {glm::vec2(24, 20), {-26, 18}, {2, 34}, {28, -4}, {-28, -8}, {24, 26}, {-22, 28}}) {
+    const Labels before = artist.labels();
+    artist.click(artist.screen_of(kOnApple) + by, PointerButton::kRight);
+    const Labels after = artist.labels();
+    std::ptrdiff_t changed = 0;
+    for (std::size_t g = 0; g < after.size(); ++g) changed += before[g] != after[g];
+    CAPTURE(changed);
+    in_a_row = 50 * changed < std::ranges::count(after, 1) ? in_a_row + 1 : 0;
+    const bool said = artist.said().find("with Scribble (3) hold the right button") != std::string::npos;
+    CAPTURE(artist.said());
+    if (changed > 0) CHECK(said == (in_a_row == 2));
+    advised += said;
+  }
+  CHECK(advised > 0);
+}
