@@ -34,6 +34,7 @@
 #include <vector>
 
 #include "core/job.h"
+#include "core/oldest_first.h"
 #include "segment/session/cut_request.h"
 #include "segment/session/cut_result.h"
 #include "segment/session/cut_settings.h"
@@ -120,6 +121,7 @@ class Session {
         size_steps{};  // Stroke::size_step of the strokes in replay order; the others have their own
     Carried carried{};
   };
+  static constexpr std::size_t kMostPlaces = 4096, kMostPlaceBytes = std::size_t{64} << 20;
 
   SessionAmong* among(const CutRequest& request);
   const StrokeHits& hits(const CameraStroke& stroke, const Job& job);
@@ -149,6 +151,7 @@ class Session {
               const CutSettings& settings, const Job& job);
   void keep_offer(const CutRequest& request, const Answered& answered, const CutSettings& settings,
                   const Job& job, CutResult* result);
+  void keep_place(const std::string& key, const Answered& answered);
   void keep_within_bytes();
   Local* local(const Place& place, const CutSettings& settings, const Job& job);
   CutRequest in_place(const CutRequest& request, const Answered& answered, Local* there, const Job& job);
@@ -160,12 +163,12 @@ class Session {
 
   SessionScene scene_;
   WholeScene whole_;
-  std::list<SessionAmong> among_;              // used last first
-  std::list<Local> locals_;                    // used last first
-  std::vector<StageTime> prepared_;            // stages of what the cut under way has prepared
-  std::map<std::string, Answered> places_;     // of strokes so far, by their bytes
-  std::map<std::string, StrokeHits> hits_;     // of single strokes
-  StrokeHits cancelled_hits_;                  // the last that were not finished
+  std::list<SessionAmong> among_;    // used last first
+  std::list<Local> locals_;          // used last first
+  std::vector<StageTime> prepared_;  // stages of what the cut under way has prepared
+  OldestFirst<Answered> places_{kMostPlaces, kMostPlaceBytes};  // of strokes so far, by their bytes
+  std::map<std::string, StrokeHits> hits_;                      // of single strokes
+  StrokeHits cancelled_hits_;                                   // the last that were not finished
   std::stop_source* ends_if_large_ = nullptr;  // ends a cut of CutReach::kSmall; null: none is under way
 };
 

@@ -16,7 +16,6 @@ namespace {
 constexpr double kAlike = 0.7, kEnough = 0.9;  // IoU of labels of two places within the smaller one
 constexpr double kMostOfScene = 0.7;           // a cell that holds this share of the Gaussians is the scene
 constexpr int kMostHalvings = 5;               // of the first cell
-constexpr std::size_t kMostPlaces = 4096;
 
 Box joined(const Box& a, const Box& b) {
   return {glm::min(a.min, b.min), glm::max(a.max, b.max)};
@@ -205,6 +204,13 @@ Place Session::place_of_masks(const CutRequest& request, const CutSettings& sett
   return place;
 }
 
+void Session::keep_place(const std::string& key, const Answered& answered) {
+  const auto& rows = answered.carried.rows;
+  places_.put(key, answered,
+              sizeof(answered) + answered.size_steps.size() * sizeof(int) +
+                  (rows ? rows->size() * sizeof((*rows)[0]) : 0));
+}
+
 // Places are found stroke by stroke, so that one more stroke asks for no more than what it adds. That of the
 // first is the likeliest meaning's, whichever is taken: the others are offered there.
 std::optional<Session::Answered> Session::place_of_strokes(const CutRequest& request,
@@ -217,9 +223,9 @@ std::optional<Session::Answered> Session::place_of_strokes(const CutRequest& req
   };
   const auto key = [&](std::size_t count) { return key_of(first(count)) + how; };
   std::size_t known = strokes.size();
-  while (known > 0 && !places_.contains(key(known))) --known;
+  while (known > 0 && !places_.find(key(known))) --known;
   std::optional<Answered> there;
-  if (known > 0) there = places_.at(key(known));
+  if (known > 0) there = *places_.find(key(known));
   std::optional<Box> must_hold;
   for (std::size_t i = 0; i < strokes.size(); ++i) {
     if (strokes[i].stroke.label == SeedLabel::kObject)
@@ -236,16 +242,15 @@ std::optional<Session::Answered> Session::place_of_strokes(const CutRequest& req
       own_size.strokes.back().strokes.back().size_step = 0;
       const std::string own_key = key_of(own_size) + how;
       if (i > 0) there->size_steps.push_back(0);
-      if (places_.size() >= kMostPlaces) places_.clear();
-      const auto own = places_.find(own_key);
-      there = own != places_.end() ? own->second : place_after(own_size, settings, *there, *must_hold, job);
+      const Answered* own = places_.find(own_key);
+      there = own ? *own : place_after(own_size, settings, *there, *must_hold, job);
       if (job.cancelled()) return {};
-      places_[own_key] = *there;
+      keep_place(own_key, *there);
       if (i > 0 && strokes[i].stroke.size_step != 0) {
         there =
             stepped(first(i + 1), settings, *there, own_key, strokes[i].stroke.size_step, *must_hold, job);
         if (job.cancelled()) return {};
-        places_[key(i + 1)] = *there;
+        keep_place(key(i + 1), *there);
       }
     }
     if (i == 0 && known <= 1) {
@@ -268,9 +273,8 @@ Session::Answered Session::stepped(const CutRequest& request, const CutSettings&
   const int towards = step < 0 ? -1 : 1;
   for (int at = towards; at * towards <= step * towards && !job.cancelled(); at += towards) {
     const std::string key = fmt::format("{} step {}", own_key, at);
-    const auto known = places_.find(key);
-    if (known != places_.end()) {
-      answered = known->second;
+    if (const Answered* known = places_.find(key)) {
+      answered = *known;
       continue;
     }
     if (answered.size_steps.back() != 0 && at_last_size(request, settings, answered, towards > 0, job)) {
@@ -279,8 +283,7 @@ Session::Answered Session::stepped(const CutRequest& request, const CutSettings&
     }
     answered.size_steps.back() += towards;
     answered = place_after(request, settings, answered, must_hold, job);
-    if (places_.size() >= kMostPlaces) places_.clear();
-    if (!job.cancelled()) places_[key] = answered;
+    if (!job.cancelled()) keep_place(key, answered);
   }
   return answered;
 }
