@@ -79,6 +79,55 @@ Flags had_by(const Document& document, const ObjectItem& object, std::size_t gau
   return count_flags(had) > 0 ? make_flags(std::move(had)) : nullptr;
 }
 
+bool holds(std::span<const ObjectId> ids, ObjectId id) {
+  return std::ranges::find(ids, id) != ids.end();
+}
+
+// Sets ObjectItem::of_others. What hands had taken of what is left no more is the object's again; what they
+// took of what is left now is left, too, but where they took it later.
+void set_left(ObjectItem* object, Flags of_others, bool hands_are_later) {
+  object->of_others = std::move(of_others);
+  if (!object->hand) return;
+  std::vector<std::uint8_t> hand = *object->hand;
+  for (std::size_t g = 0; g < hand.size(); ++g) {
+    const bool is_left = object->of_others && (*object->of_others)[g];
+    if (hand[g] == kHandLeft && !is_left) hand[g] = kHandObject;
+    if (hand[g] == kHandObject && is_left && !hands_are_later) hand[g] = kHandLeft;
+  }
+  if (hand != *object->hand) object->hand = make_flags(std::move(hand));
+}
+
+// share_what_is_hit() with those alone of `only`, if there are any.
+void share_with(const Document& document, ObjectItem* object, std::span<const std::int32_t> hits,
+                std::size_t gaussians, std::span<const ObjectId> only) {
+  std::vector<std::uint8_t> left = *object->of_others, had(gaussians, 0), shared = had, stays = had;
+  std::vector<ObjectId> hit;
+  for (const ObjectItem& other : document.objects) {  // parts behind their wholes
+    if (!are_apart(document, *object, other)) continue;
+    const std::vector<std::uint8_t> labels = labels_of(document, other, gaussians);
+    const auto is_left = [&](std::size_t g) { return labels[g] && left[g]; };
+    const bool is_hit =
+        !other.locked && (holds(hit, other.within) ||
+                          ((only.empty() || holds(only, other.id)) && holds_for_most(hits, is_left)));
+    if (is_hit) hit.push_back(other.id);
+    std::size_t count = 0, count_left = 0;
+    for (std::size_t g = 0; g < gaussians; ++g) {
+      had[g] |= labels[g];
+      shared[g] |= labels[g] && is_hit;
+      count += labels[g];
+      count_left += is_left(g);
+    }
+    // Of one that it shared with before, it leaves only what others have, too.
+    if (!is_hit && (other.locked || 2 * count_left > count))
+      for (std::size_t g = 0; g < gaussians; ++g) stays[g] |= labels[g];
+  }
+  if (hit.empty() && !only.empty()) return;
+  for (std::size_t g = 0; g < gaussians; ++g)
+    left[g] = left[g] && (hit.empty() ? had[g] != 0 : stays[g] || !shared[g]);
+  std::erase_if(object->leaves_also, [&](ObjectId id) { return holds(hit, id); });
+  set_left(object, count_flags(left) > 0 ? make_flags(std::move(left)) : nullptr, true);
+}
+
 }  // namespace
 
 Flags make_flags(std::vector<std::uint8_t> values) {
@@ -86,8 +135,9 @@ Flags make_flags(std::vector<std::uint8_t> values) {
 }
 
 const ObjectItem* Document::find(ObjectId id) const {
+  if (id == 0) return nullptr;  // at once: it is asked for each Gaussian, see has()
   const auto found = std::ranges::find(objects, id, &ObjectItem::id);
-  return id != 0 && found != objects.end() ? &*found : nullptr;
+  return found != objects.end() ? &*found : nullptr;
 }
 
 ObjectItem* Document::find(ObjectId id) {
@@ -212,19 +262,19 @@ void leave_to_locked_one(Document* document, const ObjectItem& locked, std::size
 
 const ObjectItem* locked_under(const Document& document, const ObjectItem& object,
                                std::span<const std::int32_t> hits) {
-  const auto keeps = [&](const ObjectItem& other, std::size_t g) {
-    return other.locked && are_apart(document, object, other) && has(document, other, g);
-  };
+  std::vector<const ObjectItem*> keepers;
+  for (const ObjectItem& other : document.objects)
+    if (other.locked && are_apart(document, object, other)) keepers.push_back(&other);
   const auto is_kept = [&](std::size_t g) {
     return !has(document, object, g) &&
-           std::ranges::any_of(document.objects, [&](const ObjectItem& other) { return keeps(other, g); });
+           std::ranges::any_of(keepers, [&](const ObjectItem* other) { return has(document, *other, g); });
   };
-  if (!holds_for_most(hits, is_kept)) return nullptr;
-  const auto has_most = [&](const ObjectItem& other) {
-    return holds_for_most(hits, [&](std::size_t g) { return keeps(other, g); });
+  if (keepers.empty() || !holds_for_most(hits, is_kept)) return nullptr;
+  const auto has_most = [&](const ObjectItem* other) {
+    return holds_for_most(hits, [&](std::size_t g) { return has(document, *other, g); });
   };
-  const auto found = std::ranges::find_if(document.objects, has_most);
-  return found != document.objects.end() ? &*found : nullptr;
+  const auto found = std::ranges::find_if(keepers, has_most);
+  return found != keepers.end() ? *found : nullptr;
 }
 
 bool is_without_others(const Document& document, const ObjectItem& object, std::size_t gaussians) {
@@ -239,14 +289,12 @@ bool is_without_others(const Document& document, const ObjectItem& object, std::
 }
 
 void set_of_others(ObjectItem* object, Flags of_others) {
-  object->of_others = std::move(of_others);
+  set_left(object, std::move(of_others), false);
   object->leaves_also.clear();
-  if (!object->hand) return;
-  std::vector<std::uint8_t> hand = *object->hand;
-  for (std::size_t g = 0; g < hand.size(); ++g)
-    if (hand[g] == kHandObject || hand[g] == kHandLeft)
-      hand[g] = object->of_others && (*object->of_others)[g] ? kHandLeft : kHandObject;
-  if (hand != *object->hand) object->hand = make_flags(std::move(hand));
+}
+
+void set_left_earlier(ObjectItem* object, Flags of_others) {
+  set_left(object, std::move(of_others), true);
 }
 
 void share_again(const Document& document, ObjectItem* object, std::size_t gaussians) {
@@ -255,22 +303,7 @@ void share_again(const Document& document, ObjectItem* object, std::size_t gauss
 
 void share_what_is_hit(const Document& document, ObjectItem* object, std::span<const std::int32_t> hits,
                        std::size_t gaussians) {
-  std::vector<std::uint8_t> left = *object->of_others, had(gaussians, 0), shared(gaussians, 0);
-  std::vector<ObjectId> leaves_also = object->leaves_also;
-  for (const ObjectItem& other : document.objects) {
-    if (!are_apart(document, *object, other)) continue;
-    const std::vector<std::uint8_t> labels = labels_of(document, other, gaussians);
-    const bool is_hit = holds_for_most(hits, [&](std::size_t g) { return labels[g] && left[g]; });
-    if (is_hit) std::erase(leaves_also, other.id);
-    for (std::size_t g = 0; g < gaussians; ++g) {
-      had[g] |= labels[g];
-      shared[g] |= labels[g] && is_hit;
-    }
-  }
-  const bool is_anybodys = count_flags(shared) > 0;
-  for (std::size_t g = 0; g < gaussians; ++g) left[g] = left[g] && (is_anybodys ? !shared[g] : had[g] != 0);
-  set_of_others(object, count_flags(left) > 0 ? make_flags(std::move(left)) : nullptr);
-  object->leaves_also = std::move(leaves_also);
+  share_with(document, object, hits, gaussians, {});
 }
 
 void leave_to_others(const Document& document, ObjectItem* object, std::size_t gaussians) {
@@ -287,21 +320,28 @@ bool means_what_is_left(const Document& document, const ObjectItem& object,
                         std::span<const std::int32_t> hits) {
   if (!is_made_on(object.of_others, hits)) return false;
   if (hits.size() == 1) return true;  // whoever has it
-  const auto is_left = [&](const ObjectItem& other, std::size_t g) {
-    return (*object.of_others)[g] && are_apart(document, object, other) && has(document, other, g);
-  };
-  for (const ObjectItem& other : document.objects)
-    if (holds_for_most(hits, [&](std::size_t g) { return is_left(other, g); })) return true;
-  return holds_for_most(hits, [&](std::size_t g) {  // what no other has any more
-    return (*object.of_others)[g] &&
-           std::ranges::none_of(document.objects, [&](const ObjectItem& o) { return is_left(o, g); });
-  });
+  std::vector<std::uint8_t> is_anothers(hits.size(), 0);
+  for (const ObjectItem& other : document.objects) {
+    if (!are_apart(document, object, other)) continue;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+      const auto g = static_cast<std::size_t>(hits[i]);
+      if (!(*object.of_others)[g] || !has(document, other, g)) continue;
+      is_anothers[i] = 1;
+      ++count;
+    }
+    if (2 * count > hits.size()) return true;
+  }
+  std::size_t nobodys = 0;  // what no other has any more
+  for (std::size_t i = 0; i < hits.size(); ++i)
+    nobodys += (*object.of_others)[static_cast<std::size_t>(hits[i])] && !is_anothers[i];
+  return 2 * nobodys > hits.size();
 }
 
 ObjectItem left_what_came(const Document& document, const ObjectItem& object, std::span<const ObjectId> came,
                           const HitsOfStrokes& hits, std::size_t gaussians) {
   ObjectItem out = object;
-  std::erase_if(out.leaves_also, [&](ObjectId id) { return std::ranges::find(came, id) != came.end(); });
+  std::erase_if(out.leaves_also, [&](ObjectId id) { return holds(came, id); });
   std::vector<Flags> had, may_be_shared;
   for (const ObjectId id : came)
     if (Flags of_one = had_by_others(document, object, gaussians, id)) {
@@ -309,18 +349,17 @@ ObjectItem left_what_came(const Document& document, const ObjectItem& object, st
       had.push_back(std::move(of_one));
     }
   if (had.empty()) return out;
-  for (const std::vector<std::int32_t>& of_stroke : hits())
-    if (std::ranges::any_of(may_be_shared,
-                            [&](const Flags& of_one) { return is_made_on(of_one, of_stroke); })) {
-      set_of_others(&out, nullptr);
-      leave_to_locked(document, &out, gaussians);
-      return out;
-    }
-  std::vector<std::uint8_t> all(gaussians, 0);  // hand marks are younger than that, and count
+  std::vector<std::uint8_t> all(gaussians, 0);
   if (out.of_others) all = *out.of_others;
   for (const Flags& of_one : had)
     for (std::size_t g = 0; g < gaussians; ++g) all[g] |= (*of_one)[g];
-  out.of_others = make_flags(std::move(all));
+  set_left_earlier(&out, make_flags(std::move(all)));
+  if (may_be_shared.empty()) return out;
+  for (const std::vector<std::int32_t>& of_stroke : hits()) {
+    const auto is_meant = [&](const Flags& of_one) { return is_made_on(of_one, of_stroke); };
+    if (out.of_others && std::ranges::any_of(may_be_shared, is_meant))
+      share_with(document, &out, of_stroke, gaussians, came);
+  }
   return out;
 }
 

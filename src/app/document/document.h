@@ -123,8 +123,11 @@ bool is_without_others(const Document& document, const ObjectItem& object, std::
 // Sets ObjectItem::of_others, with nothing on its way. What hands took of that is left to the others, too;
 // what hands had taken of what was left before is the object's again.
 void set_of_others(ObjectItem* object, Flags of_others);
-// Lets the object take what those others have who have most of what a stroke hits; where none has it any
-// more, all that none has. What it leaves to the remaining ones stays theirs. of_others: not null.
+// Sets it where that was left before hands took some of it: they keep that. What is on its way stays so.
+void set_left_earlier(ObjectItem* object, Flags of_others);
+// Lets the object take what those others and their parts have who have most of what a stroke hits; where none
+// has it any more, all that none has. What locked ones have, and what it leaves to the remaining ones, stays
+// theirs, also where those that are hit have it, too. of_others: not null.
 void share_what_is_hit(const Document& document, ObjectItem* object, std::span<const std::int32_t> hits,
                        std::size_t gaussians);
 // Sets it to nothing but what locked ones keep.
@@ -132,7 +135,8 @@ void share_again(const Document& document, ObjectItem* object, std::size_t gauss
 // Sets it to all that other objects have, and have on their way.
 void leave_to_others(const Document& document, ObjectItem* object, std::size_t gaussians);
 // The object with what the objects `came`, of its `leaves_also`, have now. hits: asked for the Gaussians that
-// each of its strokes hits where they have anything; a stroke that means one of these objects takes it.
+// each of its strokes hits where they have anything; a stroke that means one of these objects shares with it
+// alone.
 using HitsOfStrokes = std::function<std::vector<std::vector<std::int32_t>>()>;
 ObjectItem left_what_came(const Document& document, const ObjectItem& object, std::span<const ObjectId> came,
                           const HitsOfStrokes& hits, std::size_t gaussians);

@@ -230,7 +230,10 @@ void leave(Flags others, const ObjectItem& before, ObjectItem* object) {
 // unless it leaves some of that meanwhile, and not because it is locked.
 void leave_again(const Document& document, const ObjectItem& before, const ObjectItem& made,
                  ObjectItem* object, std::size_t gaussians) {
-  if (!before.of_others || !object->leaves_also.empty()) return;
+  const auto is_later = [&](ObjectId id) {
+    return std::ranges::find(made.leaves_also, id) == made.leaves_also.end();
+  };
+  if (!before.of_others || std::ranges::any_of(object->leaves_also, is_later)) return;
   const Flags kept = kept_by_locked(document, *object, gaussians);
   const auto has = [](const Flags& flags, std::size_t g) { return flags && (*flags)[g]; };
   std::vector<std::uint8_t> left = *before.of_others;

@@ -323,12 +323,10 @@ void leave_in_history(History* history, const ObjectItem before, const ObjectIte
     if (!same || same->leaves_also != before.leaves_also || same->of_others != before.of_others ||
         !std::ranges::all_of(came, [&](ObjectId id) { return has_the_same(*state, id); }))
       return;
-    if (same->hand == before.hand)
-      same->hand = after.hand;
-    else if (!after.of_others)
-      set_of_others(same, nullptr);
+    const bool same_hand = same->hand == before.hand;
+    set_left_earlier(same, after.of_others);
+    if (same_hand) same->hand = after.hand;  // one array for all
     same->leaves_also = after.leaves_also;
-    same->of_others = after.of_others;
   });
 }
 

@@ -67,7 +67,7 @@ std::string edit_by_shape(Document* document, const Selection& region, SetOperat
       added.push_back(static_cast<std::int32_t>(g));
   if (first) leave_to_others(*document, &object, n);
   if (means_what_is_left(*document, object, added)) {
-    if (first) share_again(*document, &object, n);
+    if (first) share_what_is_hit(*document, &object, added, n);
     return edit_selection(document, region, operation, context);
   }
   Selection left(n, 0), taken = region;

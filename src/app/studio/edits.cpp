@@ -65,7 +65,9 @@ void Edits::update() {
     ws_.say_also(Message::Kind::kError, lost + ": not done, as another scene was opened before");
   if (!for_cuts_) return;
   if (cuts_.failed() != cuts_failed_) {
-    ws_.say_also(Message::Kind::kRefused, for_cuts_title_ + ": not done, as what it waited for failed");
+    const std::string scene = scene_waits_for_cuts() ? ". The other scene is not opened" : "";
+    ws_.say_also(Message::Kind::kRefused,
+                 for_cuts_title_ + ": not done, as what it waited for failed" + scene);
     cancel();
     return;
   }
@@ -77,12 +79,25 @@ void Edits::update() {
 
 bool Edits::cancel() {
   if (!under_way_) return false;
+  if (scene_waits_for_cuts())
+    std::erase_if(waiting_, [](const Waiting& w) { return w.on_cancel == OnCancel::kWithFile; });
   for_cuts_ = nullptr;
   for (TaskThread* tasks : {&ws_.quick, &ws_.tasks}) tasks->cancel(TaskKind::kSelect);
   ++number_;
   std::erase_if(waiting_, [](const Waiting& w) { return w.on_cancel == OnCancel::kDropped; });
   finish();
   return true;
+}
+
+bool Edits::scene_waits_for_cuts() const {
+  return for_cuts_ && for_cuts_writes_ &&
+         std::ranges::any_of(waiting_, [](const Waiting& w) { return w.on_cancel == OnCancel::kWithFile; });
+}
+
+std::string Edits::dropped_by_cancel() const {
+  if (!for_cuts_ || !for_cuts_writes_) return {};
+  return fmt::format(". {}: not done{}", for_cuts_title_,
+                     scene_waits_for_cuts() ? ", and the other scene is not opened" : "");
 }
 
 void Edits::reset(bool same) {

@@ -21,8 +21,9 @@ class Edits {
   Edits(Workspace& workspace, const Viewport& viewport, CutJobs& cuts)
       : ws_(workspace), viewport_(viewport), cuts_(cuts) {}
 
-  // Fate of a waiting command if the edits before it are cancelled.
-  enum class OnCancel { kDropped, kStays };
+  // Fate of a waiting command if the edits before it are cancelled. kWithFile: another scene, which is opened
+  // once a file is written; it is dropped with a file that waits for a cut, and stays with all others.
+  enum class OnCancel { kDropped, kStays, kWithFile };
   // Runs the command now, or after the edits that were asked for before it. writes: name of a command that
   // writes a file; empty: it writes none.
   void in_turn(std::function<void()> command, OnCancel on_cancel = OnCancel::kDropped,
@@ -41,6 +42,9 @@ class Edits {
   bool file_waits() const { return !files_waiting().empty(); }  // true: a file is yet to be written
   // Cancels that edit and the waiting commands that do not stay. Returns false if no edit is under way.
   bool cancel();
+  // What is to be said of files that cancel() would drop: a file that waits for a cut is not written, and
+  // another scene that waits for it is not opened. Begins with ". "; empty: it drops none.
+  std::string dropped_by_cancel() const;
   // Cancels and forgets everything of the last scene; same: of its last files, and what stays waits on.
   void reset(bool same);
 
@@ -84,6 +88,7 @@ class Edits {
  private:
   void start(const Step& step);
   void finish();
+  bool scene_waits_for_cuts() const;               // another scene waits for a file that waits for a cut
   std::vector<std::string> files_waiting() const;  // names of the commands that are to write them
   template <class C>
   void change_all(const C& c);

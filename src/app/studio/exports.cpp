@@ -31,6 +31,20 @@ bool Exports::have_all() const {
   });
 }
 
+std::string Exports::doing() const {
+  if (!ws_.tasks.busy(TaskKind::kExport)) return {};
+  for (const auto& task : doing_)
+    if (const auto text = task.lock()) return *text;
+  return {};
+}
+
+void Exports::submit(TaskThread::Order order, std::string text, TaskThread::Work work) {
+  std::erase_if(doing_, [](const auto& task) { return task.expired(); });
+  const auto held = std::make_shared<const std::string>(std::move(text));
+  doing_.push_back(held);
+  ws_.tasks.submit(std::move(order), [held, work = std::move(work)](const Job& job) { work(job); });
+}
+
 std::string Exports::announced(const ExportRequest& request, const std::map<ObjectId, Flags>& objects) const {
   const Document& document = ws_.document();
   const ObjectItem* active = document.active_object();
@@ -59,25 +73,25 @@ void Exports::perform(const Export& c) {
   for (const ObjectItem& item : ws_.document().objects)
     if (all || (c.request.what == ExportWhat::kObject && item.id == ws_.document().active))
       objects[item.id] = ws_.labels.labels(ws_.document(), item, ws_.gaussians());
-  doing_ = announced(c.request, objects);
-  ws_.say(Message::Kind::kInfo, doing_);
-  ws_.tasks.submit(
-      export_order, [this, objects, request = c.request, document = ws_.document(),
-                     object = ws_.document().active, scene = ws_.scene, clean = ws_.clean](const Job& job) {
-        job.progress("exporting", 0);
-        const ExportReport report = run_export(*scene->scene, document, object, request, clean.get(), job);
-        if (job.cancelled()) return;
-        ws_.tasks.post([this, report, objects, path = request.path, scene] {
-          written(path, *scene);
-          if (scene == ws_.scene) {
-            std::erase_if(exported_, [&](const auto& e) { return e.second.path == path; });  // overwritten
-            for (const auto& [id, labels] : objects) exported_[id] = {path, labels};
-          }
-          ws_.say(report.hole_kept.empty() ? Message::Kind::kDone : Message::Kind::kRefused,
-                  text_of(report, path));
-          ws_.messages.back().stays = true;
-        });
-      });
+  const std::string text = announced(c.request, objects);
+  ws_.say(Message::Kind::kInfo, text);
+  submit(export_order, text,
+         [this, objects, request = c.request, document = ws_.document(), object = ws_.document().active,
+          scene = ws_.scene, clean = ws_.clean](const Job& job) {
+           job.progress("exporting", 0);
+           const ExportReport report = run_export(*scene->scene, document, object, request, clean.get(), job);
+           if (job.cancelled()) return;
+           ws_.tasks.post([this, report, objects, path = request.path, scene] {
+             written(path, *scene);
+             if (scene == ws_.scene) {
+               std::erase_if(exported_, [&](const auto& e) { return e.second.path == path; });  // overwritten
+               for (const auto& [id, labels] : objects) exported_[id] = {path, labels};
+             }
+             ws_.say(report.hole_kept.empty() ? Message::Kind::kDone : Message::Kind::kRefused,
+                     text_of(report, path));
+             ws_.messages.back().stays = true;
+           });
+         });
 }
 
 // The panes may not show the present document yet.
@@ -85,9 +99,10 @@ void Exports::perform(const SaveSnapshot& c) {
   ws_.require_scene();
   refuse_name_of_png(c.path);
   refuse_written_inputs(c.path, ws_.scene->scene->files);
-  ws_.tasks.submit(
-      TaskKind::kExport, [this, c, camera = viewport_.pane_camera(), order = viewport_.style_order(),
-                          before = viewport_.styles(), limits = viewport_.draw_limits()](const Job& job) {
+  submit(
+      TaskKind::kExport, "Saving the picture " + c.path.filename().string(),
+      [this, c, camera = viewport_.pane_camera(), order = viewport_.style_order(),
+       before = viewport_.styles(), limits = viewport_.draw_limits()](const Job& job) {
         job.progress("drawing", 0);
         LabelCache labels;
         const Styles styles = styled(order, before, &labels);
@@ -112,27 +127,26 @@ void Exports::perform(const SaveTurntable& c) {
   const Flags own = ws_.labels.labels(ws_.document(), *object, ws_.gaussians());
   DrawLimits limits = viewport_.draw_limits();
   limits.far_plane = DrawLimits{}.far_plane;  // that of another view
-  ws_.tasks.submit(
-      TaskKind::kExport,
-      [this, c, own, limits, front = viewport_.pane_camera(), up_world = ws_.document().up_world,
-       background = ws_.document().background, scene = ws_.scene, made = ws_.clean](const Job& job) {
-        const std::vector<Camera> cameras =
-            cameras_of_turn(object_extent(*scene->cloud, *own), front, up_world, c);
-        const TurntableOptions options{c.as, c.path, c.turn_s, background};
-        auto clean = c.clean_edges ? made->made(own, up_world, job) : nullptr;
-        ExportReport report;
-        if (clean) count_edges(clean->report, &report);
-        if (clean && !clean->report.cleaned) clean = nullptr;
-        if (!save_turntable(clean ? clean->cloud : *scene->cloud, cameras, clean ? nullptr : own, limits,
-                            options, job))
-          return;
-        ws_.tasks.post([this, c, edges = edges_text(report), scene] {
-          written(c.path, *scene);
-          ws_.say(Message::Kind::kDone,
-                  fmt::format("{} pictures saved to {}{}", c.frames, c.path.string(), edges));
-          ws_.messages.back().stays = true;
-        });
-      });
+  submit(TaskKind::kExport, "Saving the turntable " + c.path.filename().string(),
+         [this, c, own, limits, front = viewport_.pane_camera(), up_world = ws_.document().up_world,
+          background = ws_.document().background, scene = ws_.scene, made = ws_.clean](const Job& job) {
+           const std::vector<Camera> cameras =
+               cameras_of_turn(object_extent(*scene->cloud, *own), front, up_world, c);
+           const TurntableOptions options{c.as, c.path, c.turn_s, background};
+           auto clean = c.clean_edges ? made->made(own, up_world, job) : nullptr;
+           ExportReport report;
+           if (clean) count_edges(clean->report, &report);
+           if (clean && !clean->report.cleaned) clean = nullptr;
+           if (!save_turntable(clean ? clean->cloud : *scene->cloud, cameras, clean ? nullptr : own, limits,
+                               options, job))
+             return;
+           ws_.tasks.post([this, c, edges = edges_text(report), scene] {
+             written(c.path, *scene);
+             ws_.say(Message::Kind::kDone,
+                     fmt::format("{} pictures saved to {}{}", c.frames, c.path.string(), edges));
+             ws_.messages.back().stays = true;
+           });
+         });
 }
 
 }  // namespace splatcut

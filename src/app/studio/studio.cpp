@@ -63,7 +63,7 @@ void Studio::apply(const Command& command) {
                 c.title(), [this, command] { dispatch(command); }, kWritesFile<C>);
         if (std::is_same_v<C, OpenScene> && edits_.file_waits()) {
           ws_.say(Message::Kind::kInfo, "The scene is opened as soon as the file that waits is written");
-          return edits_.in_turn([this, command] { dispatch(command); }, Edits::OnCancel::kStays);
+          return edits_.in_turn([this, command] { dispatch(command); }, Edits::OnCancel::kWithFile);
         }
         dispatch(command);
       },
@@ -243,9 +243,10 @@ void Studio::perform(const ShowRange& c) {
 
 // What runs for the person, the nearest to its end first.
 bool Studio::cancel_task() {
+  const std::string file = edits_.dropped_by_cancel();
   if (cuts_.cancel()) {
     if (edits_.waits_for_cuts()) edits_.cancel();
-    ws_.say(Message::Kind::kInfo, "Cancelled. The strokes stay; R computes the cutout again.");
+    ws_.say(Message::Kind::kInfo, "Cancelled. The strokes stay; R computes the cutout again" + file + ".");
     return true;
   }
   bool cancelled =
@@ -258,7 +259,7 @@ bool Studio::cancel_task() {
     files_.cancel_loading();
     cancelled = true;
   }
-  if (cancelled) ws_.say(Message::Kind::kInfo, "Cancelled");
+  if (cancelled) ws_.say(Message::Kind::kInfo, "Cancelled" + (edits_.waits_for_cuts() ? "" : file));
   return cancelled;
 }
 

@@ -358,8 +358,8 @@ void Application::draw_by_gpu(ImTextureID pictures[2]) {
   glBindFramebuffer(GL_FRAMEBUFFER, static_cast<GLuint>(target));
 }
 
-// A scene may be larger than what a driver's buffers hold, or than the memory left for copies: it is drawn
-// all the same, and no work is lost.
+// A scene may be larger than what a driver's buffers hold, or than the memory left for copies, or a driver
+// refuses what it held before: the scene is drawn all the same, and no work is lost.
 void Application::go_on_without_gpu(const std::exception& why) {
   const auto* known = dynamic_cast<const Error*>(&why);
   std::string reason = known                                       ? std::string(known->unstopped())
@@ -367,10 +367,10 @@ void Application::go_on_without_gpu(const std::exception& why) {
                                                                    : "its driver failed";
   reason.resize(std::min(reason.size(), reason.find(". ")));  // what helps is done here
   gpu_.reset();
-  interface_.state().renderer_line = "CPU renderer (the scene is too large for OpenGL)";
+  interface_.state().renderer_line = fmt::format("CPU renderer ({})", reason);
   studio_.leave_gpu_view(
-      fmt::format("The graphics card cannot draw this scene ({}). The CPU does until the end "
-                  "of the program, slower while the view moves.",
+      fmt::format("The graphics card cannot go on ({}). The CPU draws until the end of the program, slower "
+                  "while the view moves.",
                   reason));
 }
 

@@ -1,7 +1,6 @@
 #include "app/workspace/messages.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace splatcut {
 
@@ -21,7 +20,7 @@ bool warns(const Message& message) {
 
 // Whether the first is to be read before the second is shown.
 bool keeps_off(const Message& shown, const Message& next) {
-  return !warns(next) && (warns(shown) || (shown.stays && !next.stays));
+  return !warns(next) && (warns(shown) || shown.stays);
 }
 
 double shown_s(const Message& message) {
@@ -31,26 +30,32 @@ double shown_s(const Message& message) {
 }  // namespace
 
 const Message* shown_message(const std::deque<Message>& messages, double now_s) {
-  const Message *shown = nullptr, *waiting = nullptr;  // the newest that waits until `shown` could be read
+  const Message* shown = nullptr;
+  // Until `shown` could be read: those that stay, in turn, or the newest of the others.
+  std::deque<const Message*> waiting;
   double since_s = 0;
   const auto read_at_s = [&] { return since_s + std::min(reading_s(*shown), kShownSeconds); };
   const auto take_waiting = [&](double at_s) {
-    if (!waiting || read_at_s() > at_s) return;
-    since_s = read_at_s();
-    shown = std::exchange(waiting, nullptr);
+    while (!waiting.empty() && read_at_s() <= at_s) {
+      since_s = read_at_s();
+      shown = waiting.front();
+      waiting.pop_front();
+    }
   };
+  const auto passes = [](const Message* message) { return !message->stays; };
   for (const Message& message : messages) {
     if (message.time_s > now_s) break;
     take_waiting(message.time_s);
     const bool unread = shown && message.time_s < read_at_s();
     if (unread && keeps_off(*shown, message)) {
-      if (!waiting || !waiting->stays || message.stays) waiting = &message;
+      if (message.stays || std::ranges::all_of(waiting, passes)) {
+        std::erase_if(waiting, passes);
+        waiting.push_back(&message);
+      }
       continue;
     }
-    if (unread && shown->stays && !message.stays)
-      waiting = shown;  // it comes back behind a warning
-    else if (waiting && !waiting->stays)
-      waiting = nullptr;
+    std::erase_if(waiting, passes);
+    if (unread && shown->stays) waiting.push_front(shown);  // it comes back behind a warning
     shown = &message;
     since_s = message.time_s;
   }

@@ -98,8 +98,12 @@ void FixedSteps::check(const char* format, const GaussianCloud& cloud,
 }
 
 std::string FixedSteps::moved(const GaussianCloud& cloud, std::span<const std::uint32_t> gaussians) const {
+  constexpr float kMostSteps = 0.9f;  // more than half a step along each axis, where all fit into 24 bits
+  const bool all_fit = std::ldexp(farthest, bits) <= kFixedLimit;
+  const float most = all_fit ? kMostSteps * step() : std::numeric_limits<float>::infinity();
   std::string said = moved_far(cloud, gaussians, kVisibly, [&](std::size_t i) {
-    const glm::vec3& p = cloud.position[gaussians[i]];
+    const glm::vec3 &p = cloud.position[gaussians[i]], &s = cloud.scale[gaussians[i]];
+    if (most < kVisibly * std::max({s.x, s.y, s.z})) return p;  // the export dialog waits for it
     return glm::vec3(rounded(p.x), rounded(p.y), rounded(p.z)) * step();
   });
   if (!said.empty() && strays > 0)

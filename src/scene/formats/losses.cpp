@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cctype>
 #include <cmath>
 #include <numeric>
 
+#include "core/parallel.h"
 #include "scene/formats/far_origin.h"
 
 namespace splatcut {
@@ -23,8 +25,13 @@ bool beyond(const glm::vec3& v, const Reach& range) {
 
 template <class Test>
 std::string clamped(const char* what, std::span<const std::uint32_t> gaussians, const Test& test) {
-  std::size_t count = 0;
-  for (const std::uint32_t g : gaussians) count += test(g);
+  std::atomic<std::size_t> all = 0;
+  for_chunks(gaussians.size(), [&](std::size_t from, std::size_t to) {
+    std::size_t some = 0;
+    for (std::size_t i = from; i < to; ++i) some += test(gaussians[i]);
+    all += some;
+  });
+  const std::size_t count = all;
   if (count == 0) return {};
   const double percent = 100.0 * static_cast<double>(count) / static_cast<double>(gaussians.size());
   const std::string share = percent < 0.1 ? "under 0.1 %" : fmt::format("{:.1f} %", percent);

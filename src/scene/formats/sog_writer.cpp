@@ -57,13 +57,18 @@ json list_of(const glm::vec3& v) {
 // Positions as 16 bits between the least and the most of their logarithms.
 struct SogMeans {
   glm::vec3 least{std::numeric_limits<float>::infinity()}, most{-std::numeric_limits<float>::infinity()};
+  glm::vec3 moves{0};  // of 1 + |coordinate|: twice what rounding to a step moves it by at most
 
   SogMeans(const GaussianCloud& cloud, std::span<const std::uint32_t> gaussians) {
     for (const std::uint32_t g : gaussians) {
-      const glm::vec3 logs = log_of(cloud.position[g]);
-      least = glm::min(least, logs);
-      most = glm::max(most, logs);
+      least = glm::min(least, cloud.position[g]);
+      most = glm::max(most, cloud.position[g]);
     }
+    least = log_of(least);  // which grow with the coordinates
+    most = log_of(most);
+    constexpr float kRounding = 1e-6f;  // of single precision in read_back(), of the largest logarithm
+    const glm::vec3 off = range() / sog::kSteps + kRounding * glm::max(glm::abs(least), glm::abs(most));
+    for (int c = 0; c < 3; ++c) moves[c] = std::expm1(off[c]);
   }
   static glm::vec3 log_of(const glm::vec3& p) {
     return {sog::to_log(p.x), sog::to_log(p.y), sog::to_log(p.z)};
@@ -77,6 +82,8 @@ struct SogMeans {
     const glm::vec3 logs = least + glm::vec3(steps_of(p)) / sog::kSteps * range();
     return {sog::from_log(logs.x), sog::from_log(logs.y), sog::from_log(logs.z)};
   }
+  // More than the distance of read_back() from p; without logarithms.
+  float moves_at_most(const glm::vec3& p) const { return glm::length(moves * (1.0f + glm::abs(p))); }
 };
 
 json add_means(const SogInput& in, SogPictures* pictures) {
@@ -201,8 +208,11 @@ Losses sog_losses(const Scene& scene, std::span<const std::uint32_t> gaussians) 
                    ? fmt::format("spherical harmonics of 8 bits are drawn from {} sets", kMostPalette)
                    : "spherical harmonics have 8 bits");
   const SogMeans means(scene.cloud, gaussians);
-  losses.add(moved_far(scene.cloud, gaussians, kVisibly,
-                       [&](std::size_t i) { return means.read_back(scene.cloud.position[gaussians[i]]); }));
+  losses.add(moved_far(scene.cloud, gaussians, kVisibly, [&](std::size_t i) {
+    const glm::vec3 &p = scene.cloud.position[gaussians[i]], &size = scene.cloud.scale[gaussians[i]];
+    const bool stays = means.moves_at_most(p) < kVisibly * std::max({size.x, size.y, size.z});
+    return stays ? p : means.read_back(p);  // the export dialog waits for it
+  }));
   losses.add(origin_left_out(scene));
   losses.add(properties_left_out(scene));
   return losses;

@@ -78,6 +78,31 @@ TEST_CASE("edits after cuts: an object is deleted, its export holds it, and Esc 
   CHECK(count_flags(*studio.document().deleted) == apple);
 }
 
+TEST_CASE("edits after cuts: with an export that Esc drops, the scene that was to follow it is not opened") {
+  const ScratchFolder folder("scene_after_export");
+  Hands hands(false);
+  Studio& studio = hands.studio();
+  click_apple(hands);
+  Export wanted;
+  wanted.request.path = folder / "apple.ply";
+  studio.apply(wanted);
+  studio.apply(OpenScene{kSample});
+  REQUIRE(hands.said() == "The scene is opened as soon as the file that waits is written");
+  studio.apply(Cancel{});
+  CHECK(hands.said().starts_with("Cancelled. "));
+  CHECK(hands.said().find("Export: not done, and the other scene is not opened") != std::string::npos);
+  REQUIRE(hands.app.settle());
+  CHECK(studio.scene()->scene->path == kSmallSample);
+  CHECK(studio.document().objects.size() == 1);
+  CHECK_FALSE(std::filesystem::exists(folder / "apple.ply"));
+  studio.apply(Recompute{});  // and a file that is written lets it follow
+  studio.apply(wanted);
+  studio.apply(OpenScene{kSample});
+  REQUIRE(hands.app.settle());
+  CHECK(std::filesystem::exists(folder / "apple.ply"));
+  CHECK(studio.scene()->scene->path == kSample);
+}
+
 TEST_CASE("hands: keys that need the object wait for its first cut, the last of a kind") {
   Hands hands(false);
   Studio& studio = hands.studio();

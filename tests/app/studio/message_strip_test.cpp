@@ -54,6 +54,26 @@ TEST_CASE("messages: that a file is written can be read, whatever comes behind o
   CHECK(text_at(messages, 11) == saved);
 }
 
+TEST_CASE("messages: files that are written one after the other are each said until that could be read") {
+  const auto text_at = [](const std::deque<Message>& messages, double now_s) {
+    const Message* shown = shown_message(messages, now_s);
+    return shown ? shown->text : std::string();
+  };
+  std::deque<Message> messages = {{Kind::kDone, "apple.ply is saved here", 10, true},  // 2.4 s each
+                                  {Kind::kDone, "melon.ply is saved here", 10.2, true},
+                                  {Kind::kInfo, "Now at: a click", 10.3},
+                                  {Kind::kDone, "berry.ply is saved here", 10.4, true}};
+  CHECK(text_at(messages, 12.3) == "apple.ply is saved here");
+  CHECK(text_at(messages, 12.5) == "melon.ply is saved here");
+  CHECK(text_at(messages, 14.9) == "berry.ply is saved here");
+  CHECK(text_at(messages, 21.7) == "berry.ply is saved here");  // its own seven seconds
+  CHECK(text_at(messages, 21.9) == "");
+  messages.push_back({Kind::kRefused, "disk", 11, true});  // 1.2 s
+  CHECK(text_at(messages, 12) == "disk");
+  CHECK(text_at(messages, 12.4) == "apple.ply is saved here");
+  CHECK(text_at(messages, 14.7) == "melon.ply is saved here");
+}
+
 TEST_CASE("messages: what is known of an answer later stands beside it, or alone once that is gone") {
   std::deque<Message> messages = {{Kind::kDone, "Mug: 1,200 Gaussians cut out in 0.4 s", 3}};
   REQUIRE(add_to_shown(Kind::kInfo, "Mug: sides in doubt are marked", 4, &messages));

@@ -95,6 +95,35 @@ TEST_CASE("ui: what was exported of a scene is not shown with another one") {
   CHECK(hands.studio().exports().last().empty());
 }
 
+TEST_CASE("ui: what is being written is named as what it is, in turn, and nothing is once all is written") {
+  const ScratchFolder folder("named_exports");
+  Hands hands;
+  Studio& studio = hands.studio();
+  Export scene{{ExportWhat::kScene, SceneFormat::kSplat, folder / "all.splat"}};
+  studio.apply(scene);
+  REQUIRE(hands.app.settle());
+  CHECK(studio.exports().doing().empty());
+  studio.apply(SaveTurntable{folder / "turn", 60, 320, 240});
+  CHECK(studio.exports().doing() == "Saving the turntable turn");
+  studio.apply(scene);
+  CHECK(studio.exports().doing() == "Saving the turntable turn");
+  std::vector<std::string> named;
+  hands.app.frames_until([&] {
+    const std::string now = studio.exports().doing();
+    if (named.empty() || named.back() != now) named.push_back(now);
+    return studio.idle();
+  });
+  CHECK(named.front() == "Saving the turntable turn");
+  CHECK(named.back().empty());
+  studio.apply(SaveTurntable{folder / "again", 60, 320, 240});
+  studio.apply(scene);
+  studio.apply(Cancel{});
+  REQUIRE(hands.app.settle());
+  studio.apply(SaveSnapshot{folder / "view.png"});
+  const std::string picture = studio.exports().doing();
+  CHECK((picture.empty() || picture == "Saving the picture view.png"));  // it may be written already
+}
+
 TEST_CASE("ui: an export that ends after another scene was opened is none of that scene") {
   const ScratchFolder folder("exported_late");
   Hands hands(false);

@@ -1,4 +1,4 @@
-// A scene that the graphics card cannot hold.
+// A graphics card that cannot hold the scene, or goes on no longer.
 #include <doctest/doctest.h>
 
 #include <new>
@@ -31,6 +31,12 @@ class RefusingDriver {
   RefusingDriver& operator=(const RefusingDriver&) = delete;
   ~RefusingDriver() { glad_glGetIntegerv = g_true_limits; }
 };
+
+PFNGLCHECKFRAMEBUFFERSTATUSPROC g_true_status = nullptr;
+
+GLenum refused_target(GLenum) {
+  return GL_FRAMEBUFFER_UNSUPPORTED;
+}
 
 HeadlessApp app_with(RendererChoice renderer) {
   ApplicationOptions options = with_kept_scenes();
@@ -65,4 +71,21 @@ TEST_CASE("gpu fallback: a scene larger than the driver's buffers is drawn by th
 
 TEST_CASE("gpu fallback: so is one whose copies have no room") {
   check_goes_on([](GLint*) { throw std::bad_alloc(); }, "not enough memory");
+}
+
+TEST_CASE(
+    "gpu fallback: a driver that refuses its target is said to do so, not that the scene is too large") {
+  HeadlessApp app = app_with(RendererChoice::kGl);
+  REQUIRE(app.interface_state().renderer_line.starts_with("OpenGL"));
+  g_true_status = std::exchange(glad_glCheckFramebufferStatus, refused_target);
+  app.open(kSmallSample);
+  const bool settled = app.settle();
+  glad_glCheckFramebufferStatus = g_true_status;
+  REQUIRE(settled);
+  CAPTURE(app.interface_state().renderer_line);
+  CHECK(app.interface_state().renderer_line.starts_with("CPU renderer (OpenGL: refuses a "));
+  REQUIRE_FALSE(app.studio().messages().empty());
+  CAPTURE(app.studio().messages().back().text);
+  CHECK(
+      app.studio().messages().back().text.starts_with("The graphics card cannot go on (OpenGL: refuses a "));
 }
