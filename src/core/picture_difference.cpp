@@ -37,8 +37,8 @@ double seen_through(const Rgba16& p) {
 template <class Pixel>
 void require_same_size(const Image<Pixel>& a, const Image<Pixel>& b) {
   if (a.width() != b.width() || a.height() != b.height())
-    throw Error("pictures", fmt::format("one has {}x{} pixels, the other {}x{}", a.width(), a.height(),
-                                        b.width(), b.height()));
+    throw Error("pictures", fmt::format("the first has {} x {} pixels, the second {} x {}", a.width(),
+                                        a.height(), b.width(), b.height()));
 }
 
 // On a ground of so much light, 0 black to 1 white.

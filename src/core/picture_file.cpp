@@ -260,6 +260,7 @@ Picture read_picture(const std::filesystem::path& path) {
   if (bytes.starts_with("RIFF") && std::string_view(bytes).substr(0, 15).ends_with(kWebpMark))
     return read_any_webp(path, bytes);
   refuse_stand_in(path, bytes);
+  if (bytes.empty()) throw Error(path.string(), "the file is empty (0 bytes)");
   throw Error(path.string(), "is neither PNG nor JPEG nor WebP");
 }
 

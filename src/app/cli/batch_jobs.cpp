@@ -96,6 +96,7 @@ void read_arguments(const nlohmann::json& asked, const std::string& where, CutAr
   options.set_help_flag("");
   args->add_to(options);
   if (!asked.contains("scene") || !asked.at("scene").is_string()) throw Error(where, "names no \"scene\"");
+  if (asked.at("scene") == "") throw Error(where, "\"scene\" is empty");
   std::vector<std::string> words;
   for (const auto& [key, value] : asked.items()) {
     if (key == "name" || key == "scene") continue;

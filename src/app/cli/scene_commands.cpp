@@ -176,6 +176,12 @@ void draw_all_cameras(const SceneArguments& args, const GaussianCloud& cloud, co
 }
 
 // What would be without effect.
+glm::vec3 parse_colour(const std::string& text) {
+  const std::optional<glm::dvec3> colour = three_numbers(text);
+  if (!colour) throw Error("--background " + text, "is not a colour", "Write it as r,g,b, each from 0 to 1");
+  return *colour;
+}
+
 void refuse_undrawn(const SceneArguments& args, bool with_background) {
   if (!args.labels.empty() && args.what != "labels")
     throw CLI::ArgumentMismatch("--labels goes with --what labels");
@@ -197,7 +203,7 @@ void run_render(const SceneArguments& args, const CommonOptions& common) {
   const ChosenCamera chosen = choose_camera(args.camera, scene);
   warn(chosen.warning, common.quiet);
   RasterOptions options;
-  options.background = parse_vec3(args.background, "--background");
+  options.background = parse_colour(args.background);
   options.low_pass_px2 = args.low_pass_px2;
   options.depth = args.what == "depth";
   std::vector<glm::vec3> colours;
@@ -259,7 +265,7 @@ void add_render_command(CLI::App& program, const CommonOptions& common) {
   command.add_option("--background", args->background, "r,g,b from 0 to 1")
       ->check(CLI::Validator(
           [](std::string& text) {
-            const glm::vec3 colour = parse_vec3(text, "--background");
+            const glm::vec3 colour = parse_colour(text);
             const bool good = glm::clamp(colour, 0.0f, 1.0f) == colour;
             return good ? "" : fmt::format("{} is not within 0 to 1: 255 is 1", text);
           },
@@ -288,6 +294,7 @@ void add_convert_command(CLI::App& program, const CommonOptions& common) {
   auto args = std::make_shared<SceneArguments>();
   CLI::App& command = *program.add_subcommand(
       "convert", "Write a scene in another format (" + spoken_extensions(written_formats(), "or") + ")");
+  command.footer("Example: splatcut convert scene.ply -o scene.spz");
   command.add_option("scene", args->scene, "Scene file")->required();
   args->how.add_to(command);
   command.add_option("-o,--output", args->output, "File to write; its ending names the format")->required();

@@ -129,7 +129,7 @@ std::string filled(const std::string& word, const std::vector<Placeholder>& plac
 void check_end(const ProgramEnd& end, const std::string& program) {
   if (end.start_error != 0)
     throw Error(program, fmt::format("the segmenter cannot be started ({})", std::strerror(end.start_error)),
-                "Is it installed, executable and on the PATH?");
+                "See whether it is installed, executable and on the PATH");
   if (end.signal != 0)
     throw Error(program, fmt::format("the segmenter was ended by signal {}", end.signal),
                 "Try its command by hand");

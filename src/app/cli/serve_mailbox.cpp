@@ -24,7 +24,7 @@ constexpr int kLookMs = 100;  // between looks whether to stop
 nlohmann::json id_of(const nlohmann::json& request) {
   if (!request.is_object() || !request.contains("id")) return {};
   const nlohmann::json& id = request.at("id");
-  return id.is_string() || id.is_number_integer() ? id : nlohmann::json();
+  return is_id(id) ? id : nlohmann::json();
 }
 
 // The id that a request to cancel names; none for other requests, and for one that is wrong.

@@ -142,6 +142,8 @@ const TypeName& type_name(FieldType type) {
   return *std::ranges::find(kTypes, type, &TypeName::type);
 }
 
+constexpr int kMostWhole = 1000000;
+
 bool is_of(FieldType type, const nlohmann::json& value) {
   switch (type) {
     case kText:
@@ -149,7 +151,7 @@ bool is_of(FieldType type, const nlohmann::json& value) {
     case kNumber:
       return value.is_number() && std::isfinite(value.get<double>());
     case kWhole:
-      return value.is_number_integer() && std::abs(value.get<double>()) <= 1e6;
+      return value.is_number_integer() && std::abs(value.get<double>()) <= kMostWhole;
     case kSwitch:
       return value.is_boolean();
     case kList:
@@ -161,6 +163,10 @@ bool is_of(FieldType type, const nlohmann::json& value) {
 void check_field(const RequestKind& kind, const RequestField& field, const nlohmann::json& value) {
   const std::string where = kind.name;
   if (kind.ask == Ask::kCancel) return;  // an id is text or a number
+  if (value.is_number_integer() && !is_of(field.type, value) && field.type == kWhole)
+    throw Error(where, fmt::format("\"{}\" is {}", field.name, json_text(value)),
+                fmt::format("It takes a whole number from -{0} to {0}", kMostWhole));
+  if (value == "") throw Error(where, fmt::format("\"{}\" is empty", field.name), field.sentence);
   if (!is_of(field.type, value))
     throw Error(where, fmt::format("\"{}\" is not {}", field.name, type_name(field.type).in_words));
   if (!field.values.empty() &&
@@ -193,6 +199,10 @@ nlohmann::json schema_of(const RequestKind& kind, const CLI::App& cut) {
 
 }  // namespace
 
+bool is_id(const nlohmann::json& value) {
+  return value.is_string() || value.is_number_integer();
+}
+
 std::span<const RequestKind> request_kinds() {
   return kinds();
 }
@@ -213,6 +223,9 @@ const RequestKind& checked_kind(const nlohmann::json& request) {
   const auto kind = std::ranges::find(kinds(), asked->get<std::string>(), &RequestKind::name);
   if (kind == kinds().end()) throw Error("request", fmt::format("\"do\" is {}", json_text(*asked)), names());
   for (const auto& [key, value] : request.items()) {
+    if (key == "id" && !is_id(value))
+      throw Error(kind->name, fmt::format("\"id\" is {}", json_text(value)),
+                  "It takes text or a whole number");
     if (key == "id" || key == "do" || std::ranges::find(kind->cut_options, key) != kind->cut_options.end())
       continue;
     const auto field =

@@ -55,6 +55,8 @@ struct RequestKind {
 
 std::span<const RequestKind> request_kinds();
 
+bool is_id(const nlohmann::json& value);  // what replies may be told apart by: text or a whole number
+
 // Reads a line. Throws Error for what is no JSON.
 nlohmann::json request_from(std::string_view line);
 

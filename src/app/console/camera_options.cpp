@@ -94,13 +94,17 @@ void CameraOptions::add_to(CLI::App& command) {
   command.add_option("--size", size, "Picture size WxH");
 }
 
-glm::dvec3 parse_vec3(const std::string& text, const std::string& where) {
+std::optional<glm::dvec3> three_numbers(const std::string& text) {
   glm::dvec3 v;
   char rest = 0;
-  if (std::sscanf(text.c_str(), "%lf,%lf,%lf%c", &v.x, &v.y, &v.z, &rest) != 3 ||
-      !std::isfinite(v.x + v.y + v.z))
-    throw Error(where + " " + text, "is not a point", "Write it as x,y,z");
-  return v;
+  const bool three = std::sscanf(text.c_str(), "%lf,%lf,%lf%c", &v.x, &v.y, &v.z, &rest) == 3;
+  return three && std::isfinite(v.x + v.y + v.z) ? std::optional(v) : std::nullopt;
+}
+
+glm::dvec3 parse_vec3(const std::string& text, const std::string& where) {
+  const std::optional<glm::dvec3> point = three_numbers(text);
+  if (!point) throw Error(where + " " + text, "is not a point", "Write it as x,y,z");
+  return *point;
 }
 
 void check_picture(const Camera& camera, std::size_t pixel_bytes) {

@@ -41,6 +41,9 @@ ChosenCamera choose_camera(const CameraOptions& options, const Scene& scene);
 // Throws Error where a picture of the camera, at so many bytes a pixel, needs more memory than is free.
 void check_picture(const Camera& camera, std::size_t pixel_bytes);
 
+// Three finite numbers with commas between them.
+std::optional<glm::dvec3> three_numbers(const std::string& text);
+// The same, else throws Error that names `where`.
 glm::dvec3 parse_vec3(const std::string& text, const std::string& where);
 
 }  // namespace splatcut

@@ -1,5 +1,6 @@
 #include "app/console/command_line.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 #include <unistd.h>
@@ -21,6 +22,7 @@
 #include "app/console/console.h"
 #include "app/console/version.h"
 #include "core/error.h"
+#include "core/spoken_list.h"
 
 namespace splatcut {
 
@@ -97,6 +99,24 @@ void refuse_empty_values(const std::vector<std::string>& words) {
   }
 }
 
+// Whoever closed standard input, output or errors must not get the next file or pipe in its place. Input ends
+// at once; what is written fails, as it does where nothing is open.
+void occupy_closed_streams() {
+  for (int stream = STDIN_FILENO; stream <= STDERR_FILENO; ++stream)
+    if (::fcntl(stream, F_GETFD) == -1 && errno == EBADF)
+      ::open("/dev/null", O_RDONLY);  // the least free one
+}
+
+// The first word where a command or a scene is expected, and it is neither.
+void refuse_unknown_command(const CLI::App& program, const std::vector<std::string>& words) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(command->get_name());
+  if (words.empty() || words.front().starts_with('-') || std::ranges::count(names, words.front()) > 0) return;
+  throw CLI::ArgumentMismatch(
+      words.front() + " is neither a command nor a file that is there. Commands: " + spoken_list(names));
+}
+
 int parse_and_run(const CommandLine& line, std::vector<std::string> words) {
   CLI::App program{line.description};
   program.name(line.program);
@@ -120,8 +140,9 @@ int parse_and_run(const CommandLine& line, std::vector<std::string> words) {
   line.add_commands(program, common);
   refuse_empty_values(&program);
   refuse_empty_values(words);
-  std::ranges::reverse(words);  // as CLI11 wants them
   try {
+    refuse_unknown_command(program, words);
+    std::ranges::reverse(words);  // as CLI11 wants them
     program.parse(std::move(words));
     if (std::fflush(stdout) != 0) throw Error("standard output", std::strerror(errno));
     return 0;
@@ -144,6 +165,7 @@ CLI::Validator within(double least, double most) {
 }
 
 int run_command_line(const CommandLine& line, std::vector<std::string> words) {
+  occupy_closed_streams();
   g_terminate_before = std::set_terminate(on_terminate);
   std::set_new_handler(on_no_memory);
   try {

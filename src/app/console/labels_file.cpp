@@ -44,6 +44,8 @@ void write_labels(const std::filesystem::path& path, const Scene& scene,
 
 std::vector<std::uint8_t> load_labels(const std::filesystem::path& path, const Scene& scene) {
   const std::string bytes = text_of_file(path);
+  if (bytes.starts_with("\x93NUMPY"))
+    throw Error(path.string(), "is an array of numpy", "Give the labels.u8 that was written beside it");
   if (bytes.size() != scene.file_rows)
     throw Error(path.string(),
                 fmt::format("holds {} labels, the scene {} rows", bytes.size(), scene.file_rows));

@@ -110,10 +110,24 @@ void check_stroke(const Stroke& stroke, const std::string& where) {
   constexpr float kFarthestPx = 1e6f;
   if (!(stroke.radius_px > 0 && stroke.radius_px < kFarthestPx))
     throw Error(where, "\"radius_px\" is no radius", "Give pixels, 3 for one");
+  if (stroke.points_px.empty()) throw Error(where, "a scribble has no point", "Give some as [[x, y], ...]");
   if (stroke.is_box() && stroke.points_px.size() != 2) throw Error(where, "a box has two opposite corners");
   for (const glm::vec2& p : stroke.points_px)
     if (!(std::abs(p.x) < kFarthestPx && std::abs(p.y) < kFarthestPx))
       throw Error(where, "a point lies outside of any picture");
+}
+
+glm::vec2 point_from_json(const nlohmann::json& point, const std::string& where) {
+  if (!point.is_array() || point.size() != 2 || !point[0].is_number() || !point[1].is_number())
+    throw Error(where, "a point is " + json_text(point), "Write it as [x, y], in pixels");
+  return {point[0].get<float>(), point[1].get<float>()};
+}
+
+Stroke box_from_json(const nlohmann::json& box, SeedLabel label, const std::string& where) {
+  const nlohmann::json& corners = box.at("corners");
+  if (!corners.is_array() || corners.size() != 2)
+    throw Error(where, "a box has two opposite corners", "Write them as [[x0, y0], [x1, y1]], in pixels");
+  return box_around(point_from_json(corners[0], where), point_from_json(corners[1], where), label);
 }
 
 Strokes strokes_from_json(const nlohmann::json& seeds, const std::string& where) {
@@ -121,11 +135,7 @@ Strokes strokes_from_json(const nlohmann::json& seeds, const std::string& where)
   try {
     if (seeds.contains("boxes"))
       for (const auto& b : seeds.at("boxes")) {
-        const auto corner = [&](std::size_t i) {
-          const auto& p = b.at("corners").at(i);
-          return glm::vec2(p.at(0).get<float>(), p.at(1).get<float>());
-        };
-        strokes.push_back(box_around(corner(0), corner(1), label_from(b.value("label", "object"), where)));
+        strokes.push_back(box_from_json(b, label_from(b.value("label", "object"), where), where));
         strokes.back().size_step = size_step_from_json(b, "scale", where);
       }
     if (seeds.contains("clicks"))
@@ -137,8 +147,7 @@ Strokes strokes_from_json(const nlohmann::json& seeds, const std::string& where)
     if (seeds.contains("scribbles"))
       for (const auto& s : seeds.at("scribbles")) {
         Stroke stroke{label_from(s.value("label", "object"), where), s.value("radius_px", 3.0f), {}};
-        for (const auto& p : s.at("points"))
-          stroke.points_px.emplace_back(p.at(0).get<float>(), p.at(1).get<float>());
+        for (const auto& p : s.at("points")) stroke.points_px.push_back(point_from_json(p, where));
         strokes.push_back(std::move(stroke));
       }
   } catch (const nlohmann::json::exception& error) {

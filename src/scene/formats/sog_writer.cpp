@@ -201,7 +201,7 @@ json add_all(const SogInput& in, bool antialiased, SogPictures* pictures) {
 
 Losses sog_losses(const Scene& scene, std::span<const std::uint32_t> gaussians) {
   Losses losses;
-  losses.add("positions are rounded to 16 bits, rotations and opacities to 8, whose order changes");
+  losses.add("positions are rounded to 16 bits, rotations and opacities to 8; the Gaussians' order changes");
   losses.add("sizes and colours are each drawn from 256 values");
   if (scene.cloud.sh_degree > 0)
     losses.add(gaussians.size() > kMostPalette

@@ -145,7 +145,8 @@ std::string write_usda(AtomicFile& out, const Scene& scene, std::span<const std:
   text.add("    uniform token sortingModeHint = \"zDepth\"\n}\n");
   text.flush();
   Losses losses = usda_losses(scene);
-  if (up != kY && up != kZ) losses.add("up is said to be +y, as the format knows +y and +z alone");
+  if (up != kY && up != kZ)
+    losses.add("up is said to be +y, which it is not: the format knows +y and +z alone");
   return losses.sentence();
 }
 

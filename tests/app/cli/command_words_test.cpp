@@ -36,6 +36,7 @@ TEST_CASE("a folder without a command is a scene to view, unless a command has i
   CHECK(place.run("--width 800 gone.splatcut.json cam.json")
             .err.find("gone.splatcut.json: there is no such file") != std::string::npos);
   CHECK(place.run("--help").code == 0);
-  CHECK(place.run("nowhere --check").err.find("subcommand") != std::string::npos);
+  CHECK(place.run("nowhere --check").err.find("nowhere is neither a command nor a file") !=
+        std::string::npos);
   CHECK(place.run("info --check").code == 2);  // is no option of `info`
 }

@@ -89,6 +89,11 @@ TEST_CASE("wrong usage exits with 2, a thing that cannot be done with 1 and a se
         "cut a.ply -o b --click 1,1 --parts-only --smoothness 2",
         "cut a.ply -o b --click 1,1 --parts-only --coarse"})
     CHECK_MESSAGE(place.run(usage).code == 2, usage);
+  const Result unknown = place.run("mege a.ply b.ply");
+  CHECK(unknown.code == 2);
+  CHECK_MESSAGE(unknown.err.find("mege is neither a command nor a file that is there") != std::string::npos,
+                unknown.err);
+  CHECK(unknown.err.find("merge") != std::string::npos);
   for (const char* unseen : {"--labels made/small.labels.u8", "--what depth --background 1,1,1"})
     CHECK_MESSAGE(place.run("render " + life.scene + " -o a.png " + unseen).code == 2, unseen);
   // NaN is no number, 255 no share of 1; what is out of range is said as it was given.
@@ -132,6 +137,10 @@ TEST_CASE("wrong usage exits with 2, a thing that cannot be done with 1 and a se
   refused("info short.ply", {"short.ply", "truncated", "row", "byte"});
   refused("convert " + life.scene + " -o a.obj", {"a.obj", "extension"});
   refused("render " + life.scene + " -o a.png --size 0x7", {"--size 0x7"});
+  refused("render " + life.scene + " -o a.png --background red", {"is not a colour", "r,g,b"});
+  refused("render " + life.scene + " -o a.png --camera-pos 1e38,0,0 --camera-target 0,0,0",
+          {"too far apart"});
+  refused(life.cut("-o b --mask empty.ply"), {"empty.ply", "the file is empty"});
   refused("render " + life.scene + " -o a.png --size 4294967297x1",
           {"--size 4294967297x1", "from 1 to 16384"});
   refused("render " + life.scene + " -o a.png --size 5", {"--size 5"});

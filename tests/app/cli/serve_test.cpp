@@ -342,6 +342,53 @@ TEST_CASE("serve: a signal, the end of stdin and a client that is gone end it, w
   CHECK(std::stoi(place.text("gone.txt")) <= 1);
 }
 
+TEST_CASE("serve: closed standard streams end it, and no pipe of its own takes their place") {
+  const Workplace& place = still_life().place;
+  place.write("closed.sh", "timeout -k 1 9 " + splatcut_program() + " serve <&-; echo stdin $?\n" +
+                               R"(echo '{"id":1,"do":"describe"}' | timeout -k 1 9 )" + splatcut_program() +
+                               " serve >&-; echo stdout $? >&2\n");
+  const Result closed = place.run_program("/bin/bash", "closed.sh");
+  CHECK(closed.out == "stdin 0\n");
+  CHECK_MESSAGE(closed.err.find("nobody reads the replies") != std::string::npos, closed.err);
+  CHECK(closed.err.find("stdout 1") != std::string::npos);
+}
+
+TEST_CASE("serve: what a request must not hold is refused in words, and changes nothing") {
+  const auto refusal = [](const std::string& line) {
+    still_life().place.write("requests.jsonl", line + "\n");
+    const Workplace& place = still_life().place;
+    place.write("talk.sh", splatcut_program() + " serve <requests.jsonl\n");
+    const json reply = json::parse(place.run_program("/bin/bash", "talk.sh").out);
+    CHECK(reply["ok"] == false);
+    return reply.value("error", "");
+  };
+  const auto says = [&](const std::string& line, std::initializer_list<const char*> parts) {
+    const std::string error = refusal(line);
+    for (const char* part : parts) CHECK_MESSAGE(error.find(part) != std::string::npos, error);
+  };
+  says(R"({"id":1.5,"do":"undo"})", {"\"id\" is 1.5", "text or a whole number"});
+  says(R"({"id":1,"do":"open","scene":""})", {"open: \"scene\" is empty"});
+  says(R"({"id":1,"do":"size","step":3000000000})", {"\"step\" is 3000000000", "-1000000 to 1000000"});
+  says(R"({"id":1,"do":"size","step":"a"})", {"\"step\" is not a whole number"});
+}
+
+TEST_CASE("serve: a scribble without points and a box with one corner are refused, and are no steps") {
+  const Said said = talk({
+      opened(),                                              // 0
+      click_on("apple"),                                     // 1
+      request("scribble", {{"points", json::array()}}),      // 2
+      request("box", {{"corners", {{604, 430}}}}),           // 3
+      request("scribble", {{"points", {{604, 430}, {1}}}}),  // 4
+      request("undo"),                                       // 5
+  });
+  const auto error = [&](int reply) { return said.replies.at(reply).value("error", ""); };
+  CHECK(error(2).find("a scribble has no point") != std::string::npos);
+  CHECK_MESSAGE(error(3).find("a box has two opposite corners. Write them as") != std::string::npos,
+                error(3));
+  CHECK_MESSAGE(error(4).find("a point is [1]") != std::string::npos, error(4));
+  CHECK(said.replies.at(5)["gaussians"] == 0);  // the click
+}
+
 TEST_CASE("serve: the Python of docs/serve.md does what it says") {
   const Workplace& place = still_life().place;
   std::ifstream in(project_folder() + "/docs/serve.md");
