@@ -30,17 +30,18 @@ struct CutResult {
   std::string reason;                // for kNothingFound
   std::vector<std::uint8_t> labels;  // per Gaussian of the cloud, 1 = object
   std::vector<std::uint8_t> prior;   // what the parts say, per Gaussian; it counts in every cut; or empty
-  std::vector<std::int8_t> said;     // per Gaussian: +1, -1 as strokes themselves decide, 0 open; or empty
-  std::size_t sizes = 0, size = 0;   // of what the last stroke means, from small to large; the one taken
-  std::size_t likeliest_size = 0;    // the one at step 0
-  std::vector<Mask> size_masks;      // of each size, in that stroke's view; see ClickSelection
-  std::vector<Mask> meanings;     // of the first click in its view, the likeliest first; see ClickSelection
-  std::size_t choice = 0;         // the one taken
-  bool spot_alone = false;        // the last stroke changed the spot around it alone: no part fits it
-  double certainty = 1;           // of what was said first, [0, 1]; see ClickSelection
-  std::vector<ViewReport> views;  // the reference, the others, then stroked views that correct
-  std::string why_enough;         // why there are no more views
-  CutFigures cut;                 // of the last cut
+  // Per Gaussian: +1, -1 as strokes themselves decide, or the one mask that is given; 0 open; or empty.
+  std::vector<std::int8_t> said;
+  std::size_t sizes = 0, size = 0;  // of what the last stroke means, from small to large; the one taken
+  std::size_t likeliest_size = 0;   // the one at step 0
+  std::vector<Mask> size_masks;     // of each size, in that stroke's view; see ClickSelection
+  std::vector<Mask> meanings;       // of the first click in its view, the likeliest first; see ClickSelection
+  std::size_t choice = 0;           // the one taken
+  bool spot_alone = false;          // the last stroke changed the spot around it alone: no part fits it
+  double certainty = 1;             // of what was said first, [0, 1]; see ClickSelection
+  std::vector<ViewReport> views;    // the reference, the others, then stroked views that correct
+  std::string why_enough;           // why there are no more views
+  CutFigures cut;                   // of the last cut
   std::size_t looked_at_gaussians = 0;  // in the neighbourhood that was cut
   std::size_t trimmed = 0;              // Gaussians that left the object after it
   std::vector<StageTime> stages;  // in order, same names added up; what was kept costs and lists nothing

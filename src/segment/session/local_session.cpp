@@ -286,6 +286,8 @@ void LocalSession::correct(const Asked& asked, const Job& job, Kept* first, CutR
   settings.cut.energy.lambda = asked.settings.last_lambda();
   const Likelihood weighed = evidence(asked, job, first, result);
   if (job.cancelled()) return;
+  if (asked.request.first_mask && !asked.corrections().empty())
+    result->said.clear();  // they correct the mask
   job.progress("cut", 0.9);
   StageClock clock(&result->stages);
   const LookedAt looked = looked_at(result->views);

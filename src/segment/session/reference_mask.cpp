@@ -4,6 +4,7 @@
 
 #include "core/stage_clock.h"
 #include "scene/raster/rasterizer.h"
+#include "segment/graphcut/likelihood.h"
 #include "segment/masks/mask_tools.h"
 #include "segment/session/view_mask.h"
 #include "segment/superpoints/part_view.h"
@@ -62,6 +63,23 @@ void select_by_mask(const CutTask& task, const Camera& camera, const Mask& mask,
   join_enclosed_by(task, view, &result->labels);
 }
 
+// Where one mask alone says what is meant, its own view shows it afterwards: a Gaussian that makes a pixel or
+// more of the view, nearly all on one side of the mask, takes that side, whatever the parts and predicted
+// views say. Those that straddle its border are open.
+std::vector<std::int8_t> said_by_mask(const CutTask& task, const Camera& camera, const Mask& mask) {
+  constexpr std::int64_t kLeast = static_cast<std::int64_t>(MaskedSums::kUnitsPerPixel);
+  constexpr double kNearlyAll = 0.97;
+  MaskedSums sums(task.scene.drawer.cloud().size());
+  add_masked_sums(task.scene.drawer, camera, mask, false, task.job, &sums);
+  std::vector<std::int8_t> said(sums.total.size(), 0);
+  for (std::size_t g = 0; g < said.size(); ++g) {
+    if (sums.total[g] < kLeast) continue;
+    const double inside = static_cast<double>(sums.inside[g]) / static_cast<double>(sums.total[g]);
+    said[g] = inside >= kNearlyAll ? 1 : inside <= 1 - kNearlyAll ? -1 : 0;
+  }
+  return said;
+}
+
 ReferenceMask mask_from_pixels(const CutTask& task, const Camera& camera, StageClock* clock) {
   const float scale =
       static_cast<float>(camera.width_px) / static_cast<float>(task.reference.camera.width_px);
@@ -86,6 +104,7 @@ std::optional<ReferenceMask> reference_mask(const CutTask& task, const Camera& c
       clock.time("first mask",
                  [&] { select_by_mask(task, camera, found.mask, &found.median_depth, result); });
       result->prior = result->labels;
+      if (task.request.masks.empty()) result->said = said_by_mask(task, camera, found.mask);
     }
   } else if (by_parts) {
     clock.time("first mask", [&] { select_by_strokes(task, camera, &found.median_depth, result); });

@@ -31,8 +31,8 @@ Document pot_plant_and_leaf() {
 
 Bytes left_once_leaf_came(const Document& document, const HitLists& hits) {
   const ObjectId came[] = {kLeaf};
-  const ObjectItem plant =
-      left_what_came(document, *document.find(kPlant), came, [&] { return hits; }, kEight);
+  const ObjectItem plant = left_what_came(
+      document, *document.find(kPlant), came, [&] { return hits; }, kEight);
   CHECK(plant.leaves_also == std::vector<ObjectId>(document.find(kPlant)->leaves_also.begin() + 1,
                                                    document.find(kPlant)->leaves_also.end()));
   return plant.of_others ? *plant.of_others : Bytes(kEight, 0);
@@ -127,7 +127,8 @@ TEST_CASE("sharing: a whole that is clicked shares what its parts have, but for 
   CHECK(labels_after_click_on(document, kPlant, 0) == Bytes{1, 1, 1, 0, 0, 1, 1, 1});
 }
 
-TEST_CASE("sharing: a click taken away ends its sharing, though what the object waited for is still to come") {
+TEST_CASE(
+    "sharing: a click taken away ends its sharing, though what the object waited for is still to come") {
   const GaussianCloud cloud = random_cloud(kEight, 1, 0);
   Document document = leaf_on_pot();
   document.find(kPlant)->leaves_also = {kLeaf};  // it has yet another size on its way

@@ -123,6 +123,24 @@ TEST_CASE("session: a view is left out by its camera, one that is not looked at 
 }
 
 // Half of the mug is no part of the scene, nothing stands out at its border: masks alone say it.
+TEST_CASE("session: one given mask is kept in its own view, whatever parts there are") {
+  const SmallTable& t = small_table();
+  const Camera& camera = t.scene.cameras[0];
+  const auto mug = std::ranges::find(t.scene.label_name, "mug") - t.scene.label_name.begin();
+  std::vector<std::uint8_t> whole(t.cloud->size());
+  for (std::size_t g = 0; g < whole.size(); ++g) whole[g] = t.scene.label[g] == mug;
+  Mask upper = thresholded(render_labels({*t.cloud, nullptr}, camera, whole), 0.5f);
+  const PixelRect box = bounds(upper);
+  for (int y = (box.y0 + box.y1) / 2; y < upper.height(); ++y)
+    for (int x = 0; x < upper.width(); ++x) upper.at(x, y) = 0;
+  CutRequest request;
+  request.first_mask = {camera, upper};
+  const CutResult cut = fresh_session().cut(request, preset("default"));
+  const double kept = iou(upper, thresholded(render_labels({*t.cloud, nullptr}, camera, cut.labels), 0.5f));
+  MESSAGE("image IoU with the given mask: " << kept);
+  CHECK(kept > 0.95);
+}
+
 TEST_CASE("session: given masks of several views mean what they show, whatever parts there are") {
   const SmallTable& t = small_table();
   const auto mug = std::ranges::find(t.scene.label_name, "mug") - t.scene.label_name.begin();
