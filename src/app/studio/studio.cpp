@@ -1,10 +1,10 @@
 #include "app/studio/studio.h"
-#include "app/document/words.h"
 
 #include <algorithm>
 #include <chrono>
 #include <thread>
 
+#include "app/document/words.h"
 #include "core/error.h"
 
 namespace splatcut {

@@ -277,7 +277,7 @@ TEST_CASE("clicks: on the dot of the last click the wheel takes sizes in its vie
     CAPTURE(moved);
     Artist artist(on_sample("mug", kOnMug));
     artist.click_on_it();
-    const auto turn_at = [&](const glm::vec2& at, double notches) {
+    const auto turn_at = [&](const glm::vec2& at, float notches) {
       artist.app.move(at);
       artist.app->handle(WheelTurned{notches, {}});
       artist.app.frames(1);
