@@ -242,6 +242,20 @@ void fill_hole_choice(UiContext& ui) {
                   keys_of(Action::kFillHole)));
 }
 
+std::string sides_in_doubt(const Studio& studio, ExportWhat what) {
+  if (what == ExportWhat::kScene) return {};
+  const bool all = what == ExportWhat::kAllObjects || what == ExportWhat::kOneFile;
+  const Document& document = studio.document();
+  std::size_t sides = 0;
+  for (const ObjectItem& item : document.objects)
+    if (const CutRun* run = all || item.id == document.active ? studio.cuts().run(item.id) : nullptr)
+      sides += static_cast<std::size_t>(
+          std::ranges::count_if(run->views, [](const ViewCard& card) { return !card.doubt.empty(); }));
+  if (sides == 0) return {};
+  return fmt::format("{} in doubt: see the thumbnails with a question mark.",
+                     sides == 1 ? "One side is" : fmt::format("{} sides are", sides));
+}
+
 void remember_finish(UiContext& ui) {
   if (!ui.state.view_before) ui.state.view_before = ui.studio.view();
 }
