@@ -276,6 +276,7 @@ const FormatPlan& export_plan(UiContext& ui, std::size_t gaussians) {
     choice.plan = choice.format.plan(*scene.scene, rows, moved);
     if (gaussians > own && own > 0)  // what fills a hole comes beside
       choice.plan.bytes = choice.plan.bytes * gaussians / own;
+    choice.plan.bytes += bytes_of_numbers(choice, gaussians);
     choice.plan_key = std::move(key);
   }
   return choice.plan;
