@@ -164,9 +164,10 @@ std::string moved_text(const ExportPlacement& placement) {
 
 std::string edges_stay_text(const EdgesKnown& edges) {
   if (!edges.clean || edges.kept == 0) return {};
-  const std::string whose =
-      edges.kept == 1 ? edges.kept_of : fmt::format("{} objects ({} the first)", edges.kept, edges.kept_of);
-  return fmt::format("Clean edges change nothing of {}: {}.", whose, edges.why_kept);
+  if (edges.kept == 1)
+    return fmt::format("Clean edges leave {} as it is: {}.", edges.kept_of, edges.why_kept);
+  return fmt::format("Clean edges leave {} objects as they are ({} the first): {}.", edges.kept,
+                     edges.kept_of, edges.why_kept);
 }
 
 std::string changes_text(const ExportChoice& choice, const EdgesKnown& edges, const HoleKnown& hole) {
