@@ -45,7 +45,7 @@ void refuse_beside_work(const CLI::App& command, const std::vector<std::string>&
 void warn_of_doubts(const std::vector<CutObject>& objects, bool quiet) {
   for (const CutObject& object : objects) {
     const std::string whose = object.name.empty() ? "" : object.name + ": ";
-    for (const std::string& sentence : doubts(object.result)) warn(whose + sentence, quiet);
+    for (const std::string& sentence : object.doubts()) warn(whose + sentence, quiet);
     if (object.name.empty() && unsure(object.result) && !quiet)
       to_stderr("--choice takes another meaning, --scale a smaller or a larger part\n");
   }

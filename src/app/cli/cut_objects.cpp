@@ -9,6 +9,7 @@
 #include "app/document/export_plan.h"
 #include "core/error.h"
 #include "scene/camera/camera_names.h"
+#include "segment/session/doubts.h"
 
 namespace splatcut {
 
@@ -114,6 +115,12 @@ std::vector<NamedSeeds> named_seeds_from_json(const json& seeds, const std::stri
   }
   check_names(objects, where);
   return objects;
+}
+
+std::vector<std::string> CutObject::doubts() const {
+  std::vector<std::string> sentences = splatcut::doubts(result);
+  if (!doubt_of_mask.empty()) sentences.insert(sentences.begin(), doubt_of_mask);
+  return sentences;
 }
 
 std::vector<CutObject> objects_of(const std::vector<NamedSeeds>& seeds, const ChosenCamera& chosen,

@@ -43,7 +43,11 @@ struct CutObject {
   CutRequest request;
   Camera camera;  // view of its pictures
   CutResult result;
-  std::size_t found = 0;  // number of Gaussians before later objects took theirs
+  std::size_t found = 0;        // number of Gaussians before later objects took theirs
+  std::string doubt_of_mask{};  // see RequestRemarks::doubt; or empty
+
+  // What should be checked before the result is trusted, sentences.
+  std::vector<std::string> doubts() const;
 };
 
 // Throws Error if the camera of an object is not known.

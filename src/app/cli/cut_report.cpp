@@ -28,7 +28,8 @@ std::size_t gaussians_of(const CutObject& object) {
 }
 
 // Views, cut and stages of an object.
-json cut_json(const CutResult& result, const std::vector<StageTime>& times, bool with_times) {
+json cut_json(const CutObject& object, const std::vector<StageTime>& times, bool with_times) {
+  const CutResult& result = object.result;
   json views = json::array(), stages = json::array();
   for (const ViewReport& view : result.views) {
     views.push_back({{"used", view.used}, {"confidence", view.confidence}, {"mask_px", count(view.mask)}});
@@ -44,7 +45,7 @@ json cut_json(const CutResult& result, const std::vector<StageTime>& times, bool
                 {"energy", result.cut.energy},
                 {"flow", result.cut.flow}}},
               {"certainty", result.certainty},
-              {"doubts", doubts(result)}};
+              {"doubts", object.doubts()}};
   if (!result.meanings.empty())
     out.update({{"choice", result.choice + 1}, {"choices", result.meanings.size()}});
   if (!with_times) return out;
@@ -56,7 +57,7 @@ json cut_json(const CutResult& result, const std::vector<StageTime>& times, bool
 json entry_json(const RunReport& report, std::size_t o) {
   const CutObject& object = report.objects[o];
   const ObjectFiles files = files_of(object);
-  json entry = cut_json(object.result, object.result.stages, report.times);
+  json entry = cut_json(object, object.result.stages, report.times);
   entry.update({{"name", object.name},
                 {"index", o + 1},
                 {"camera", object.camera.name},
@@ -103,7 +104,7 @@ json report_json(const RunReport& report) {
   if (const LostByFile lost = lost_by_file(report); !lost.empty()) out["lost"] = lost;
   if (report.of_one()) {
     const CutObject& object = report.objects.front();
-    out.update(cut_json(object.result, stages_of_one(report), report.times));
+    out.update(cut_json(object, stages_of_one(report), report.times));
     out.update({{"object", {{"gaussians", gaussians_of(object)}}},
                 {"edges", report.edges.front().json(report.times)}});
     return out;

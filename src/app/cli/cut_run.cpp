@@ -71,7 +71,9 @@ std::vector<CutObject> objects_of(const CutArguments& args, const ObjectInput& i
   for (const std::string& remark : remarks.warnings) options.warn(remark);
   stop_if_cancelled(job, "splatcut cut");
   std::vector<CutObject> objects = objects_of(input.objects, *chosen, args.camera);
-  if (objects.empty()) objects.push_back({{}, std::move(request), chosen->camera, {}});
+  if (objects.empty())
+    objects.push_back(
+        {.request = std::move(request), .camera = chosen->camera, .doubt_of_mask = std::move(remarks.doubt)});
   for (CutObject& object : objects) {
     if (Stroke* first = first_stroke(&object.request.strokes); first && args.scale != 0)
       first->size_step = args.scale;

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
+#include <utility>
 
 #include "app/console/mask_folder.h"
 #include "app/console/seeds_file.h"
@@ -42,6 +43,18 @@ std::string contradiction(const Strokes& strokes) {
                          std::floor(a.points_px[0].x), std::floor(a.points_px[0].y));
     }
   return {};
+}
+
+// Where nobody says the view of a mask, another size is all that tells that it is not the guessed one's.
+std::string doubt_of_view(const Mask& mask, const std::filesystem::path& path, const CameraOptions& camera,
+                          const ChosenCamera& chosen) {
+  const Camera& view = chosen.camera;
+  const bool guessed = chosen.given.empty() && camera.position.empty();
+  if (!guessed || (mask.width() == view.width_px && mask.height() == view.height_px)) return {};
+  return fmt::format(
+      "{} has {} x {} pixels, the view {} x {}: it may be of another view. Give the mask's own with "
+      "--cameras and --camera",
+      path.filename().string(), mask.width(), mask.height(), view.width_px, view.height_px);
 }
 
 }  // namespace
@@ -124,7 +137,11 @@ CutRequest request_of(const ObjectInput& input, const CameraOptions& camera, con
     remarks->warnings.push_back(
         fmt::format("{}: taken as a mask of the camera {}, the first of {}. --camera names another",
                     input.mask.string(), chosen->camera.name, chosen->given.size()));
-  if (!input.mask.empty()) request.first_mask = {chosen->camera, read_given_mask(input.mask, chosen->camera)};
+  if (!input.mask.empty()) {
+    ReadMask read = read_mask(input.mask);
+    remarks->doubt = doubt_of_view(read.mask, input.mask, camera, *chosen);
+    request.first_mask = {chosen->camera, checked_mask(std::move(read), chosen->camera, input.mask.string())};
+  }
   if (input.segmenter)
     request.first_mask = {chosen->camera, mask_from_text(*input.segmenter, cloud, chosen->camera, job)};
   if (input.masks_folder.empty()) return request;

@@ -45,6 +45,7 @@ struct ObjectOptions {
 struct RequestRemarks {
   std::string understood;             // how the masks of a folder were, or empty
   std::vector<std::string> warnings;  // on what was left out or contradicts itself
+  std::string doubt;                  // of the result, for what was given; or empty
 };
 
 // The request for one object. With a folder of masks the reference may become another camera. Throws Error

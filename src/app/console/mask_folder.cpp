@@ -166,10 +166,6 @@ Mask checked_mask(ReadMask read, const Camera& camera, const std::string& where)
   return in_size_of(std::move(read.mask), camera, where);
 }
 
-Mask read_given_mask(const fs::path& path, const Camera& camera) {
-  return checked_mask(read_mask(path), camera, path.string());
-}
-
 MaskFolder load_mask_folder(const std::vector<Camera>& cameras, const MaskFolderOptions& options) {
   const Matches matches = matched(cameras, options.folder);
   MaskFolder found;

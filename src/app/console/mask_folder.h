@@ -19,7 +19,6 @@ namespace splatcut {
 
 // In the size of the camera's picture. where: what the sentences of errors are about.
 Mask checked_mask(ReadMask read, const Camera& camera, const std::string& where);
-Mask read_given_mask(const std::filesystem::path& path, const Camera& camera);
 
 struct MaskFolder {
   GivenView reference;

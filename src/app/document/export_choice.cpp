@@ -24,6 +24,10 @@ bool changes_edges(const EdgesKnown& edges) {
   return edges.clean && edges.unknown + edges.cleaned > 0;
 }
 
+bool has_numbers(const ExportChoice& choice) {
+  return choice.what == ExportWhat::kOneFile && choice.format.name == SceneFormat::kPly.name;
+}
+
 std::string edges_change_text(const ExportChoice& choice, const EdgesKnown& edges) {
   if (!changes_edges(edges)) return {};
   if (choice.what == ExportWhat::kRest)
@@ -143,9 +147,13 @@ std::string kept_text(const ExportChoice& choice, const FormatPlan& plan, const 
          what;
 }
 
+std::uint64_t bytes_of_numbers(const ExportChoice& choice, std::size_t gaussians) {
+  return has_numbers(choice) ? gaussians * sizeof(std::uint8_t) : 0;
+}
+
 std::string numbers_text(const ExportChoice& choice) {
   if (choice.what != ExportWhat::kOneFile) return {};
-  return choice.format.name == SceneFormat::kPly.name
+  return has_numbers(choice)
              ? "object_id says the object's place in the list; names go to a .json beside the file."
              : "Which object a Gaussian belongs to is kept in a .ply alone.";
 }
@@ -156,9 +164,10 @@ std::string moved_text(const ExportPlacement& placement) {
 
 std::string edges_stay_text(const EdgesKnown& edges) {
   if (!edges.clean || edges.kept == 0) return {};
-  const std::string whose =
-      edges.kept == 1 ? edges.kept_of : fmt::format("{} objects ({} the first)", edges.kept, edges.kept_of);
-  return fmt::format("Clean edges change nothing of {}: {}.", whose, edges.why_kept);
+  if (edges.kept == 1)
+    return fmt::format("Clean edges leave {} as it is: {}.", edges.kept_of, edges.why_kept);
+  return fmt::format("Clean edges leave {} objects as they are ({} the first): {}.", edges.kept,
+                     edges.kept_of, edges.why_kept);
 }
 
 std::string changes_text(const ExportChoice& choice, const EdgesKnown& edges, const HoleKnown& hole) {

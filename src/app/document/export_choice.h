@@ -89,8 +89,9 @@ std::string amount_text(const ExportChoice& choice, std::size_t gaussians, const
 // where it does not.
 // changes: what changes_text() says.
 std::string kept_text(const ExportChoice& choice, const FormatPlan& plan, const std::string& changes = {});
-// Whether a file of all objects says which is which; empty: it holds no several.
+// Whether a file of all objects says which is which; empty: it holds no several. And what that takes.
 std::string numbers_text(const ExportChoice& choice);
+std::uint64_t bytes_of_numbers(const ExportChoice& choice, std::size_t gaussians);
 std::string moved_text(const ExportPlacement& placement);
 // Whose edges stay, though clean ones are asked for; empty: nobody's.
 std::string edges_stay_text(const EdgesKnown& edges);

@@ -13,8 +13,7 @@ namespace {
 
 // Of an object that Clean leaves as it is: why, and what its button does then.
 std::string uncleaned_text(const std::string& name, const std::string& why_not) {
-  return fmt::format("Clean edges change nothing of {}: {}. It looks and exports the same with and without",
-                     name, why_not);
+  return fmt::format("Clean edges leave {} as it is: {}", name, why_not);
 }
 
 }  // namespace

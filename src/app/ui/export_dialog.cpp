@@ -59,21 +59,6 @@ HoleKnown hole_known(const Studio& studio, ExportWhat what) {
   return {true, studio.finish().without()};
 }
 
-// Of the objects that the file is about; empty: none of their sides is.
-std::string sides_in_doubt(const Studio& studio, ExportWhat what) {
-  if (what == ExportWhat::kScene) return {};
-  const bool all = what == ExportWhat::kAllObjects || what == ExportWhat::kOneFile;
-  const Document& document = studio.document();
-  std::size_t sides = 0;
-  for (const ObjectItem& item : document.objects)
-    if (const CutRun* run = all || item.id == document.active ? studio.cuts().run(item.id) : nullptr)
-      sides += static_cast<std::size_t>(
-          std::ranges::count_if(run->views, [](const ViewCard& card) { return !card.doubt.empty(); }));
-  if (sides == 0) return {};
-  return fmt::format("{} in doubt: see the thumbnails with a question mark.",
-                     sides == 1 ? "One side is" : fmt::format("{} sides are", sides));
-}
-
 void propose_path(UiContext& ui) {
   ExportChoice& choice = ui.state.exporting;
   choice.path = proposed_path(choice, ui.studio.scene()->scene->path, ui.studio.document().active_object(),
@@ -291,6 +276,7 @@ const FormatPlan& export_plan(UiContext& ui, std::size_t gaussians) {
     choice.plan = choice.format.plan(*scene.scene, rows, moved);
     if (gaussians > own && own > 0)  // what fills a hole comes beside
       choice.plan.bytes = choice.plan.bytes * gaussians / own;
+    choice.plan.bytes += bytes_of_numbers(choice, gaussians);
     choice.plan_key = std::move(key);
   }
   return choice.plan;

@@ -153,7 +153,9 @@ void turntable_dialog(UiContext& ui) {
     propose(ui);
     remember_finish(ui);
   }
-  if (!begin_dialog(id, ui.state.turntable_open, {560, 346})) return;
+  constexpr float kWidth = 560, kHeight = 346, kLine = 26;
+  const std::string doubt = ui.studio.scene() ? sides_in_doubt(ui.studio, ExportWhat::kObject) : "";
+  if (!begin_dialog(id, ui.state.turntable_open, {kWidth, doubt.empty() ? kHeight : kHeight + kLine})) return;
   const bool typing = typing_beside("##folder");
   as_row(ui, choice);
   frames_row(ui, choice);
@@ -168,6 +170,7 @@ void turntable_dialog(UiContext& ui) {
   const bool guessed = views.up_is_guess && views.up_world == ui.studio.document().up_world;
   wrapped_muted(ui,
                 what_is_written(choice) + (guessed ? " Does it lean? Set what is up under View first." : ""));
+  if (!doubt.empty()) wrapped_warning(ui, doubt);
   std::error_code ignored;
   const bool exists = std::filesystem::exists(first_written(choice), ignored);
   if (exists)

@@ -28,6 +28,29 @@ bool another_dialog(const char* id) {
          (open[0].Window->Flags & ImGuiWindowFlags_Modal) != 0;
 }
 
+// Keys of a dialog's storage.
+const ImGuiID kPointerRests = ImHashStr("pointer rests"), kRestsAtX = ImHashStr("rests at x"),
+              kRestsAtY = ImHashStr("rests at y");
+
+// Since the dialog appeared.
+void see_whether_pointer_rests() {
+  ImGuiStorage& kept = ImGui::GetCurrentWindow()->StateStorage;
+  const ImVec2 pointer = ImGui::GetMousePos();
+  if (ImGui::IsWindowAppearing()) {
+    kept.SetBool(kPointerRests, true);
+    kept.SetFloat(kRestsAtX, pointer.x);
+    kept.SetFloat(kRestsAtY, pointer.y);
+  } else if (pointer.x != kept.GetFloat(kRestsAtX) || pointer.y != kept.GetFloat(kRestsAtY)) {
+    kept.SetBool(kPointerRests, false);
+  }
+}
+
+// Whether a dialog came below a pointer that did not move since: nobody points at what lies there.
+bool pointer_rests() {
+  return ImGui::GetCurrentWindow()->RootWindow->StateStorage.GetBool(kPointerRests) &&
+         !GImGui->NavDisableMouseHover;  // the keyboard moves on alone
+}
+
 }  // namespace
 
 bool begin_dialog(const char* id, bool wanted, const ImVec2& size, Turn turn) {
@@ -36,7 +59,9 @@ bool begin_dialog(const char* id, bool wanted, const ImVec2& size, Turn turn) {
   const ImVec2 screen = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
   ImGui::SetNextWindowSize({std::min(size.x, screen.x), std::min(size.y, screen.y)});
-  return ImGui::BeginPopupModal(id, nullptr, ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove);
+  if (!ImGui::BeginPopupModal(id, nullptr, ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove)) return false;
+  see_whether_pointer_rests();
+  return true;
 }
 
 bool enter_pressed() {
@@ -128,7 +153,7 @@ void tooltips_beside_window() {
 }
 
 void tooltip(const std::string& text, const UiRect& message, const TipPicture& picture) {
-  if (text.empty() || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
+  if (text.empty() || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled) || pointer_rests()) return;
   constexpr float kWidest = 320;
   const ImVec2 padding = ImGui::GetStyle().WindowPadding,
                words = ImGui::CalcTextSize(text.c_str(), nullptr, false, kWidest - padding.x);
@@ -240,6 +265,20 @@ void fill_hole_choice(UiContext& ui) {
       fmt::format("Continues a flat surface where the object stood, by copies of it. What is copied is "
                   "invented. {} shows it",
                   keys_of(Action::kFillHole)));
+}
+
+std::string sides_in_doubt(const Studio& studio, ExportWhat what) {
+  if (what == ExportWhat::kScene) return {};
+  const bool all = what == ExportWhat::kAllObjects || what == ExportWhat::kOneFile;
+  const Document& document = studio.document();
+  std::size_t sides = 0;
+  for (const ObjectItem& item : document.objects)
+    if (const CutRun* run = all || item.id == document.active ? studio.cuts().run(item.id) : nullptr)
+      sides += static_cast<std::size_t>(
+          std::ranges::count_if(run->views, [](const ViewCard& card) { return !card.doubt.empty(); }));
+  if (sides == 0) return {};
+  return fmt::format("{} in doubt: see the thumbnails with a question mark.",
+                     sides == 1 ? "One side is" : fmt::format("{} sides are", sides));
 }
 
 void remember_finish(UiContext& ui) {

@@ -13,6 +13,8 @@ namespace splatcut {
 void clean_edges_choice(UiContext& ui, const std::string& reason = {});
 // The same for the hole that the object leaves in what is written of the rest.
 void fill_hole_choice(UiContext& ui);
+// How many sides of the objects that are written are in doubt, as a sentence; empty: none is.
+std::string sides_in_doubt(const Studio& studio, ExportWhat what);
 // A dialog with such switches opens, unless it comes back; and ends. Not kept, they are as they were before.
 void remember_finish(UiContext& ui);
 void leave_finish(UiContext& ui, bool kept);

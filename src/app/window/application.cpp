@@ -264,9 +264,29 @@ void Application::handle_one(const FileDropped& event) {
   open({event.path, {}, event.more});
 }
 
+namespace {
+
+// Before it is read. Of work, and of what is no file, that is not known.
+bool begins_as_no_scene(const std::filesystem::path& path) {
+  std::error_code ignored;
+  const auto type = std::filesystem::status(path, ignored).type();
+  if (is_work_file(path) ||
+      (type != std::filesystem::file_type::regular && type != std::filesystem::file_type::not_found))
+    return false;
+  try {
+    check_beginning(path);
+    return false;
+  } catch (const Error&) {
+    return true;
+  }
+}
+
+}  // namespace
+
 void Application::open(const OpenScene& command) {
   interface_.state().after_save.reset();
-  if (studio_.unsaved_and_not_exported())
+  // What is no scene leaves the work: the reason is said in place of a question.
+  if (studio_.unsaved_and_not_exported() && !(command.added.empty() && begins_as_no_scene(command.path)))
     interface_.state().open_asked = command;
   else
     studio_.apply(command);

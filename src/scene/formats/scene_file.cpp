@@ -193,6 +193,10 @@ Scene load_scene(const std::filesystem::path& path, const LoadOptions& options, 
   return scene;
 }
 
+void check_beginning(const std::filesystem::path& path) {
+  format_of(MappedFile(scene_file_in(path)));
+}
+
 SceneLevels levels_of(const std::filesystem::path& path) {
   const MappedFile file(scene_file_in(path));
   const SceneFormat format = format_of(file);

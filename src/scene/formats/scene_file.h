@@ -72,6 +72,9 @@ std::filesystem::path scene_file_in(const std::filesystem::path& path);
 // Which of a given folder's files was read, as a sentence; empty where it is clear.
 std::string remark_on_folder(const std::filesystem::path& given, const Scene& scene);
 
+// Looks at the name and the first bytes alone: throws Error for a file that load_scene() refuses for them.
+void check_beginning(const std::filesystem::path& path);
+
 // The levels of detail of a scene that has several; of others none. Throws Error.
 SceneLevels levels_of(const std::filesystem::path& path);
 // The finest that memory_of_scene() says to fit, else the coarsest.

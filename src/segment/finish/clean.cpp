@@ -102,7 +102,7 @@ CleanObject cleaned(const CleanInput& input, std::span<const Camera> cameras, co
     CleanObject same = as_labelled(input);
     same.report.views = report.views;
     same.report.agreed = report.agreed;
-    same.report.why_not = "all that they would take off is seen in the scene, too";
+    same.report.why_not = "what they would take off is seen in the scene, too";
     return same;
   }
   if (input.rest)

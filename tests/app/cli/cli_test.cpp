@@ -54,6 +54,39 @@ TEST_CASE("a cut of the whole scene gives it all, a rest without Gaussians and a
   CHECK(json::parse(place.text("out/report.json"))["object"]["gaussians"] == 300);
 }
 
+TEST_CASE("a mask without a camera is doubted where it has another size than the view, else not") {
+  const Workplace place;
+  Scene scene;
+  scene.cloud = random_cloud(300, 5, 0, 0.3f);
+  for (float& opacity : scene.cloud.opacity) opacity = 0.8f;
+  scene.file_rows = scene.cloud.size();
+  save_scene(place / "ball.ply", scene, {}, SceneFormat::kPly);
+  place.write("all.labels.u8", std::string(300, '\1'));
+  const std::string white = "render ball.ply --what labels --labels all.labels.u8 --background 1,1,1";
+  REQUIRE(place.run(white + " -o view.png").code == 0);
+  REQUIRE(place.run(white + " --size 144x108 -o other.png").code == 0);
+  const std::string at = " --camera-pos 0,0,-5 --camera-target 0,0,0", cut = "cut ball.ply --edges keep";
+  struct Case {
+    std::string options;
+    bool doubted;
+  };
+  int number = 0;
+  for (const Case& c :
+       {Case{" --mask other.png", true}, Case{" --mask view.png", false},
+        Case{" --mask other.png --size 144x108", false}, Case{" --mask other.png" + at, false}}) {
+    CAPTURE(c.options);
+    const std::string folder = "cut_" + std::to_string(number++);
+    const Result result = place.run(cut + c.options + " -o " + folder);
+    REQUIRE_MESSAGE(result.code == 0, result.err);
+    const std::string doubt =
+        "other.png has 144 x 108 pixels, the view 1008 x 756: it may be of another view. Give the mask's own "
+        "with --cameras and --camera";
+    CHECK((result.err.find(doubt) != std::string::npos) == c.doubted);
+    const json report = json::parse(place.text(folder + "/report.json"));
+    CHECK(std::ranges::count(report["doubts"], json(doubt)) == (c.doubted ? 1 : 0));
+  }
+}
+
 TEST_CASE("cameras that see nothing of the scene are said, those that see some of it are not") {
   const Workplace place;
   Scene scene;

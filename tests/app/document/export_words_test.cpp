@@ -59,18 +59,18 @@ TEST_CASE("exports: the dialog promises a number, and that nothing is lost, only
         "and trim or recolour others. Untick them to write all as it is.");
   CHECK(edges_stay_text(cleaned).empty());
   CHECK(amount_text(choice, 46423, stays, {}, plan) == "46,423 Gaussians, 4.3 MB");
-  CHECK(edges_stay_text(stays) == "Clean edges change nothing of Mug: 3 Gaussians have no edges.");
+  CHECK(edges_stay_text(stays) == "Clean edges leave Mug as it is: 3 Gaussians have no edges.");
   CHECK(loss_text(choice, stays, {}, plan) == "Nothing is lost.");
   choice.what = ExportWhat::kAllObjects;
   EdgesKnown all = cleaned;
   all.count(CleanReport{.why_not = "3 Gaussians have no edges"}, "Mug");
-  CHECK(edges_stay_text(all) == "Clean edges change nothing of Mug: 3 Gaussians have no edges.");
+  CHECK(edges_stay_text(all) == "Clean edges leave Mug as it is: 3 Gaussians have no edges.");
   CHECK(changes_text(choice, all, {}) ==
         "Clean edges leave out 214 Gaussians that only show, as ragged bits, once the object stands alone, "
         "and trim or recolour others. Untick them to write all as it is.");
   all.count(CleanReport{.why_not = "it is not seen"}, "Cup");
   CHECK(edges_stay_text(all) ==
-        "Clean edges change nothing of 2 objects (Mug the first): 3 Gaussians have no edges.");
+        "Clean edges leave 2 objects as they are (Mug the first): 3 Gaussians have no edges.");
   choice.what = ExportWhat::kRest;
   for (const EdgesKnown& edges : {not_yet, cleaned}) {
     CHECK(amount_text(choice, 139338, edges, {}, plan) == "About 139,338 Gaussians, about 4.3 MB");

@@ -79,8 +79,8 @@ TEST_CASE("messages: what is known of an answer later stands beside it, or alone
   REQUIRE(add_to_shown(Kind::kInfo, "Mug: sides in doubt are marked", 4, &messages));
   CHECK(messages.back().text == "Mug: 1,200 Gaussians cut out in 0.4 s; sides in doubt are marked");
   CHECK(messages.back().kind == Kind::kInfo);  // no tick
-  REQUIRE(add_to_shown(Kind::kInfo, "Clean edges change nothing of Mug: no side shows it", 5, &messages));
-  CHECK(messages.back().text.ends_with("are marked\nClean edges change nothing of Mug: no side shows it"));
+  REQUIRE(add_to_shown(Kind::kInfo, "Clean edges leave Mug as it is: no side shows it", 5, &messages));
+  CHECK(messages.back().text.ends_with("are marked\nClean edges leave Mug as it is: no side shows it"));
   CHECK(messages.size() == 1);
   CHECK(shown_message(messages, 11.9) == &messages.back());  // time to read what came
   CHECK_FALSE(add_to_shown(Kind::kInfo, "Mug: later", 60, &messages));

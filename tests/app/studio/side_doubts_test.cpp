@@ -58,6 +58,23 @@ TEST_CASE("sides: a right click that takes far sides is told of, and the picture
     CHECK(has_cut_notes(hands.studio(), true));
     CHECK(has_cut_notes(hands.studio(), false) == (run.doubts.size() > 1));  // where there are none to see
   }
+  // The turntable says so, too: in the colour of warnings, in which nothing else of it is.
+  const auto warnings = [&] {
+    hands.app.frames(3);
+    const UiRect at = hands.app.window("###turntable");
+    const Image<Rgb8> picture = hands.app.picture();
+    int pixels = 0;
+    for (int y = static_cast<int>(at.min.y); y < static_cast<int>(at.max.y); ++y)
+      for (int x = static_cast<int>(at.min.x); x < static_cast<int>(at.max.x); ++x) {
+        const Rgb8 p = picture.at(x, y);
+        pixels += p[0] > 2 * p[2] && p[1] > p[2] && p[0] > 128;
+      }
+    return pixels;
+  };
+  hands.app.interface_state().turntable_open = true;
+  CHECK(warnings() > 100);
+  hands.app.key(key::kEscape);
+  hands.app.frames(3);
   // The next answer ends the doubt, before its own pictures are there.
   Studio& studio = hands.studio();
   const std::uint64_t done = studio.cuts().done();

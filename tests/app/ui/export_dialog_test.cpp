@@ -269,6 +269,23 @@ TEST_CASE("export dialog: why the last try failed is gone as soon as anything in
   CHECK(choice.trouble.empty());
 }
 
+TEST_CASE("export dialog: the size of all objects in one file counts the byte that says whose each is") {
+  const ScratchFolder folder("size_of_one_file");
+  Hands hands(false);
+  hands.app.key('A', {.ctrl = true});
+  REQUIRE(hands.app.settle());
+  const ExportChoice& choice = hands.app.interface_state().exporting;
+  proposed(hands);
+  hands.app.press_item("###export", {"All objects, one file"});
+  hands.app.type_into("###export", {"##path"}, (folder / "all.ply").string());
+  const auto planned = static_cast<std::int64_t>(choice.plan.bytes);
+  hands.app.key(key::kEnter);
+  REQUIRE(hands.app.settle());
+  const auto written = static_cast<std::int64_t>(std::filesystem::file_size(folder / "all.ply"));
+  const auto gaussians = static_cast<std::int64_t>(hands.studio().scene()->cloud->size());
+  CHECK(std::abs(written - planned) < gaussians / 10);  // the header's lines are estimated
+}
+
 TEST_CASE(
     "export dialog: a typed name stays with another choice of what is written, a proposed one follows") {
   const ScratchFolder folder("typed_name");

@@ -43,6 +43,37 @@ TEST_CASE("dialogs: the turntable writes as many pictures of the size asked for"
   CHECK_FALSE(std::filesystem::exists(folder / "none"));
 }
 
+TEST_CASE("dialogs: no tooltip of a dialog comes before the pointer has moved in it") {
+  HeadlessApp app(760, 420);
+  REQUIRE(cut_out_apple(app));
+  UiState& state = app.interface_state();
+  const auto tip = [&] { return app.window("##Tooltip").size().x > 0; };
+  state.turntable_open = true;
+  app.frames(3);
+  const glm::vec2 on_save = app.button("Save").min + 8.0f;
+  state.turntable_open = false;
+  app.key(key::kEscape);
+  app.frames(3);
+  REQUIRE_FALSE(app->interface().dialog_open());
+  app.move(on_save);
+  app->advance(1);
+  for (int again = 0; again < 2; ++again) {
+    state.turntable_open = true;
+    app.frames(5);
+    app->advance(2);
+    CHECK_FALSE(tip());
+    app.move(on_save + 2.0f);
+    app.frames(2);
+    CHECK(tip());
+    app.move(on_save);
+    app.frames(2);
+    CHECK(tip());
+    app.key(key::kEscape);
+    app.frames(3);
+    REQUIRE_FALSE(app->interface().dialog_open());
+  }
+}
+
 TEST_CASE("dialogs: the turntable as an animated WebP is one that readers of WebP know") {
   const ScratchFolder folder("turntable_webp");
   HeadlessApp app(760, 420);

@@ -66,6 +66,32 @@ TEST_CASE("two dialogs: a question about unsaved work is seen at once, whatever 
     }
 }
 
+TEST_CASE("two dialogs: of what begins as no scene that is said at once, and the work stays") {
+  const ScratchFolder folder("no_scene");
+  HandsWithWork hands;
+  const std::string text = "a list of things to buy\n";
+  for (const char* name : {"notes.txt", "picture.png", "program.zip", "work.splatcut.json", "scene.splat"})
+    std::ofstream(folder / name) << text;
+  for (const char* name : {"notes.txt", "picture.png", "program.zip", "gone.ply"}) {
+    CAPTURE(name);
+    hands.app.open(folder / name);
+    hands.app.frames(4);
+    CHECK_FALSE(shown(hands, kOpenAnyway));
+    REQUIRE(hands.app.settle());
+    CHECK(hands.said().find(name) != std::string::npos);
+    CHECK(hands.studio().unsaved_and_not_exported());
+    CHECK(hands.studio().scene());
+  }
+  for (const char* name : {"work.splatcut.json", "scene.splat"}) {  // their beginning says nothing
+    CAPTURE(name);
+    hands.app.open(folder / name);
+    hands.app.frames(4);
+    CHECK(shown(hands, kOpenAnyway));
+    hands.app.press_item(kOpenAnyway, {"Stay"});
+    hands.app.frames(3);
+  }
+}
+
 TEST_CASE("two dialogs: leaving is asked before opening, and each answer counts") {
   HandsWithWork hands;
   hands.app.open(kSmallSample);

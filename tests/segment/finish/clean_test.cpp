@@ -256,7 +256,7 @@ TEST_CASE("the guard: what an object's own pictures show is not cut off") {
   const Thing thing(options, "background");  // touched by every thing, and hidden by it
   const CleanObject object = thing.clean();
   CHECK_FALSE(object.report.cleaned);
-  CHECK(object.report.why_not == "all that they would take off is seen in the scene, too");
+  CHECK(object.report.why_not == "what they would take off is seen in the scene, too");
   CHECK(object.report.left + object.report.split + object.report.made_solid + object.report.recoloured == 0);
   CHECK(same_rows(object.cloud, thing.as_labelled()));
 }
