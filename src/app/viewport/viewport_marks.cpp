@@ -151,14 +151,17 @@ UiRect axes_gizmo(UiContext& ui, const UiRect& area) {
   for (const Axis& axis : axes_seen_by(camera, axes_of_file(ui.studio))) {
     const ImVec2 at = {middle.x + kRadius * axis.seen.x, middle.y + kRadius * axis.seen.y};
     const bool positive = axis.name[0] != '-';
-    ImGui::SetCursorScreenPos({at.x - kBall, at.y - kBall});
-    ImGui::PushID(axis.name);
-    ImGui::SetItemAllowOverlap();
-    // Looks from that end at the middle.
-    if (ImGui::InvisibleButton("axis", {2 * kBall, 2 * kBall})) ui.ask(LookAlong{-axis.direction_world});
-    const bool hovered = ImGui::IsItemHovered();
-    tooltip(fmt::format("Look from {}", axis.name));
-    ImGui::PopID();
+    bool hovered = false;
+    if (!ui.studio.tools().at_work()) {  // else a click is a corner of what is drawn
+      ImGui::SetCursorScreenPos({at.x - kBall, at.y - kBall});
+      ImGui::PushID(axis.name);
+      ImGui::SetItemAllowOverlap();
+      // Looks from that end at the middle.
+      if (ImGui::InvisibleButton("axis", {2 * kBall, 2 * kBall})) ui.ask(LookAlong{-axis.direction_world});
+      hovered = ImGui::IsItemHovered();
+      tooltip(fmt::format("Look from {}", axis.name));
+      ImGui::PopID();
+    }
     if (positive) list.AddLine(middle, at, axis.ink, 2);
     const float size = positive ? kBall : 0.6f * kBall;
     list.AddCircleFilled(at, size, positive || hovered ? axis.ink : packed(ui.theme.colour.panel, 0.8f));

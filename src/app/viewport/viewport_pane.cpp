@@ -413,15 +413,16 @@ std::vector<UiRect> viewport_pane(UiContext& ui, const UiRect& area, ImTextureID
     if (line) covered.push_back(*line);
     if (line && line->max.x > area.max.x - kAxesWidth) above_axes = line->max.y;
   }
-  covered.push_back(axes_gizmo(ui, {{area.min.x, above_axes}, area.max}));
+  const UiRect axes = axes_gizmo(ui, {{area.min.x, above_axes}, area.max});
   UiRect for_message = area;
   if (const auto rect = first_run_hint(ui, area)) {
     covered.push_back(*rect);
     if (rect->max.y > 0.5f * (area.min.y + area.max.y)) for_message.max.y = rect->min.y;
   }
-  float under = top + below_label;
+  float under = std::max(top + below_label, axes.max.y);
   for (const UiRect& rect : covered)
     if (rect.min.y < 0.5f * (area.min.y + area.max.y)) under = std::max(under, rect.max.y);
+  if (!studio.tools().at_work()) covered.push_back(axes);  // else it is drawn over
   draw_message(ui, for_message, under);
   if (studio.cursor_px()) {  // no message hides what keys move
     draw_cursor_sign(ui, area);

@@ -27,7 +27,8 @@ void draw_placed_file(UiContext& ui, const UiRect& area);
 void draw_key_cursor(const UiContext& ui, const UiRect& area);   // that the arrows move
 void draw_looking(const UiContext& ui, const UiRect& area);      // at the pointer, while that takes long
 void draw_cursor_sign(const UiContext& ui, const UiRect& area);  // what a press would do to the selection
-inline constexpr float kAxesWidth = 98;                // that axes_gizmo() takes, its margin counted; points
-UiRect axes_gizmo(UiContext& ui, const UiRect& area);  // which takes clicks: look along an axis
+inline constexpr float kAxesWidth = 98;  // that axes_gizmo() takes, its margin counted; points
+UiRect axes_gizmo(UiContext& ui,
+                  const UiRect& area);  // look along an axis by a click, unless a shape is begun
 
 }  // namespace splatcut

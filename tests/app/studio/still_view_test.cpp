@@ -116,3 +116,26 @@ TEST_CASE("still view: keys, axes and drags that put the view elsewhere are refu
   hands.app.key(key::kEscape);
   for (const int code : {int{'F'}, key::kHome, int{'N'}}) CHECK_FALSE(stays([&] { hands.app.key(code); }));
 }
+
+TEST_CASE("still view: over the axes in the picture's corner a click is a corner of what is drawn") {
+  HeadlessApp app(1500, 900, 1, with_kept_scenes());  // wide: no options over the picture
+  app.interface_state().hint_wanted = false;
+  app.open(kSmallSample);
+  REQUIRE(app.settle());
+  app.wait_for_message_to_go();
+  const UiRect picture = app->interface().viewport();
+  app.key('8');
+  app.click(app.screen_of(kOnApple));
+  app.click(app.screen_of(kOnOrange));
+  REQUIRE(app.studio().tools().at_work());
+  for (float y = 10; y < 130; y += 12)
+    for (float x = 10; x < 100; x += 12) {
+      CAPTURE(x);
+      CAPTURE(y);
+      app->advance(1);  // no double click
+      app.move({picture.max.x - x, picture.min.y + y});
+      const std::size_t before = app.studio().overlay().points_px.size();
+      app.click({picture.max.x - x, picture.min.y + y});
+      CHECK(app.studio().overlay().points_px.size() == before + 1);
+    }
+}
