@@ -15,7 +15,6 @@
 #include "core/error.h"
 #include "core/json_file.h"
 #include "core/stage_clock.h"
-#include "segment/session/doubts.h"
 
 namespace splatcut {
 
@@ -41,8 +40,7 @@ BatchJob job_from(const nlohmann::json& line) {
 nlohmann::json cut_objects_json(const std::vector<CutObject>& objects) {
   nlohmann::json list = nlohmann::json::array();
   for (const CutObject& object : objects) {
-    list.push_back(
-        {{"gaussians", std::ranges::count(object.result.labels, 1)}, {"doubts", doubts(object.result)}});
+    list.push_back({{"gaussians", std::ranges::count(object.result.labels, 1)}, {"doubts", object.doubts()}});
     if (!object.name.empty()) list.back()["name"] = object.name;
   }
   return list;

@@ -9,7 +9,6 @@
 #include "app/console/version.h"
 #include "app/document/export_plan.h"
 #include "segment/masks/mask_tools.h"
-#include "segment/session/doubts.h"
 
 namespace splatcut {
 

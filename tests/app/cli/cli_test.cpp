@@ -85,6 +85,9 @@ TEST_CASE("a mask without a camera is doubted where it has another size than the
     const json report = json::parse(place.text(folder + "/report.json"));
     CHECK(std::ranges::count(report["doubts"], json(doubt)) == (c.doubted ? 1 : 0));
   }
+  place.write("jobs.jsonl", R"({"name": "one", "scene": "ball.ply", "mask": "other.png", "edges": "keep"})");
+  REQUIRE(place.run("batch jobs.jsonl -o batch").code == 0);
+  CHECK(place.text("batch/one/result.json").find("other.png has 144 x 108 pixels") != std::string::npos);
 }
 
 TEST_CASE("cameras that see nothing of the scene are said, those that see some of it are not") {
