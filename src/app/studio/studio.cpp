@@ -315,7 +315,7 @@ void Studio::perform(const SetView& c) {
   ++ws_.view_serial;
 }
 
-// By buttons and the axes over the picture.
+// For commands that move the view without an action: thumbnails, and the axes over the picture.
 void Studio::refuse_while_drawing() const {
   if (ws_.tools.at_work()) throw Error("", as_sentence(std::string(kViewStays)));
 }

@@ -28,7 +28,7 @@
 
 namespace splatcut {
 
-// Of what would put the view elsewhere then.
+// Why what moves the view is refused while a shape is drawn.
 inline constexpr std::string_view kViewStays = "the view stays while a shape is drawn over it";
 
 class Studio {

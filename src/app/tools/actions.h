@@ -124,7 +124,7 @@ constexpr bool is_flight(Action action) {
   return action >= Action::kFlyForward && action <= Action::kFlyDown;
 }
 
-// It puts the view elsewhere at once.
+// True for actions that put the view elsewhere at once.
 constexpr bool goes_to_view(Action action) {
   return action >= Action::kFrameObject && action <= Action::kViewTop;
 }

@@ -32,7 +32,7 @@ bool another_dialog(const char* id) {
 const ImGuiID kPointerRests = ImHashStr("pointer rests"), kRestsAtX = ImHashStr("rests at x"),
               kRestsAtY = ImHashStr("rests at y");
 
-// Since the dialog appeared.
+// Notes whether the pointer has moved since the dialog appeared.
 void see_whether_pointer_rests() {
   ImGuiStorage& kept = ImGui::GetCurrentWindow()->StateStorage;
   const ImVec2 pointer = ImGui::GetMousePos();

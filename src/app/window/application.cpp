@@ -266,7 +266,8 @@ void Application::handle_one(const FileDropped& event) {
 
 namespace {
 
-// Before it is read. Of work, and of what is no file, that is not known.
+// True if a file is missing, or its name or first bytes are those of no scene. False for saved work and
+// folders: these show it only once they are read.
 bool begins_as_no_scene(const std::filesystem::path& path) {
   std::error_code ignored;
   const auto type = std::filesystem::status(path, ignored).type();

@@ -383,7 +383,7 @@ void CutJobs::finish(const Order& order, CutRun run, const Flags& labels) {
   // What left is no part of the place that was clicked, which shows something else: hovering agrees.
   const bool beside =
       last_stroke(order.request.strokes)->label == SeedLabel::kRest && *before != *labels_now();
-  // Once: from the third on it was said, and is no worse a way.
+  // At the second such click alone: at the third it has been said.
   const bool piecemeal = beside && small_removals(ws_.history, order.object, ws_.gaussians()) == 2;
   const std::string but = piecemeal ? fmt::format(
                                           "clicks there take little each: with Scribble ({}) hold the "

@@ -51,7 +51,8 @@ Camera look_at(const glm::vec3& position, const glm::vec3& target, const glm::ve
   const glm::vec3 forward = target - position;
   if (!(glm::length(forward) > 0)) throw Error("camera", "position and target are the same point");
   if (!std::isfinite(glm::length(forward)))
-    throw Error("camera", "position and target are too far apart to be reckoned with");
+    throw Error("camera", "position and target are too far apart: their distance is no number",
+                "Give nearer ones");
   const glm::vec3 z = glm::normalize(forward);
   const glm::vec3 right = glm::cross(z, up);
   if (!(glm::length(right) > 1e-6f * glm::length(up)))

@@ -16,6 +16,20 @@ using nlohmann::json;
 
 using namespace splatcut;
 
+namespace {
+
+// ball.ply of 300 Gaussians, and labels that take all of it.
+void write_ball(const Workplace& place) {
+  Scene scene;
+  scene.cloud = random_cloud(300, 5, 0, 0.3f);
+  for (float& opacity : scene.cloud.opacity) opacity = 0.8f;
+  scene.file_rows = scene.cloud.size();
+  save_scene(place / "ball.ply", scene, {}, SceneFormat::kPly);
+  place.write("all.labels.u8", std::string(300, '\1'));
+}
+
+}  // namespace
+
 TEST_CASE("cli: what settles masks of other views asks for such views, unless their number is said") {
   const auto views = [](const char* preset_name, const MaskOptions& options) {
     CutSettings settings = preset(preset_name);
@@ -35,12 +49,7 @@ TEST_CASE("cli: what settles masks of other views asks for such views, unless th
 
 TEST_CASE("a cut of the whole scene gives it all, a rest without Gaussians and a sentence") {
   const Workplace place;
-  Scene scene;
-  scene.cloud = random_cloud(300, 5, 0, 0.3f);
-  for (float& opacity : scene.cloud.opacity) opacity = 0.8f;
-  scene.file_rows = scene.cloud.size();
-  save_scene(place / "ball.ply", scene, {}, SceneFormat::kPly);
-  place.write("all.labels.u8", std::string(300, '\1'));
+  write_ball(place);
   const std::string at = " --camera-pos 0,0,-5 --camera-target 0,0,0 --size 96x72";
   REQUIRE(place
               .run("render ball.ply" + at +
@@ -56,12 +65,7 @@ TEST_CASE("a cut of the whole scene gives it all, a rest without Gaussians and a
 
 TEST_CASE("a mask without a camera is doubted where it has another size than the view, else not") {
   const Workplace place;
-  Scene scene;
-  scene.cloud = random_cloud(300, 5, 0, 0.3f);
-  for (float& opacity : scene.cloud.opacity) opacity = 0.8f;
-  scene.file_rows = scene.cloud.size();
-  save_scene(place / "ball.ply", scene, {}, SceneFormat::kPly);
-  place.write("all.labels.u8", std::string(300, '\1'));
+  write_ball(place);
   const std::string white = "render ball.ply --what labels --labels all.labels.u8 --background 1,1,1";
   REQUIRE(place.run(white + " -o view.png").code == 0);
   REQUIRE(place.run(white + " --size 144x108 -o other.png").code == 0);
