@@ -1,5 +1,6 @@
 #include "segment/session/reference_mask.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "core/stage_clock.h"
@@ -63,10 +64,23 @@ void select_by_mask(const CutTask& task, const Camera& camera, const Mask& mask,
   join_enclosed_by(task, view, &result->labels);
 }
 
+// True if a point lies behind what the view shows there and in the pixels beside it.
+bool lies_behind(const Image<float>& median_depth, const Camera& camera, const glm::vec3& point_world) {
+  if (!camera.shows(point_world)) return false;
+  const glm::vec3 point_camera = camera.camera_from_world(point_world);
+  const glm::ivec2 at = glm::floor(camera.pixel_from_camera(point_camera));
+  float farthest = 0;
+  for (int y = at.y - 1; y <= at.y + 1; ++y)
+    for (int x = at.x - 1; x <= at.x + 1; ++x)
+      if (median_depth.contains(x, y)) farthest = std::max(farthest, median_depth.at(x, y));
+  return farthest > 0 && point_camera.z > farthest;
+}
+
 // Where one mask alone says what is meant, its own view shows it afterwards: a Gaussian that makes a pixel or
 // more of the view, nearly all on one side of the mask, takes that side, whatever the parts and predicted
-// views say. Those that straddle its border are open.
-std::vector<std::int8_t> said_by_mask(const CutTask& task, const Camera& camera, const Mask& mask) {
+// views say. Open are those that straddle its border, and those that shine through the object from behind.
+std::vector<std::int8_t> said_by_mask(const CutTask& task, const Camera& camera, const Mask& mask,
+                                      const Image<float>& median_depth) {
   constexpr std::int64_t kLeast = static_cast<std::int64_t>(MaskedSums::kUnitsPerPixel);
   constexpr double kNearlyAll = 0.97;
   MaskedSums sums(task.scene.drawer.cloud().size());
@@ -75,7 +89,11 @@ std::vector<std::int8_t> said_by_mask(const CutTask& task, const Camera& camera,
   for (std::size_t g = 0; g < said.size(); ++g) {
     if (sums.total[g] < kLeast) continue;
     const double inside = static_cast<double>(sums.inside[g]) / static_cast<double>(sums.total[g]);
-    said[g] = inside >= kNearlyAll ? 1 : inside <= 1 - kNearlyAll ? -1 : 0;
+    if (inside <= 1 - kNearlyAll)
+      said[g] = -1;
+    else if (inside >= kNearlyAll &&
+             !lies_behind(median_depth, camera, task.scene.drawer.cloud().position[g]))
+      said[g] = 1;
   }
   return said;
 }
@@ -104,7 +122,8 @@ std::optional<ReferenceMask> reference_mask(const CutTask& task, const Camera& c
       clock.time("first mask",
                  [&] { select_by_mask(task, camera, found.mask, &found.median_depth, result); });
       result->prior = result->labels;
-      if (task.request.masks.empty()) result->said = said_by_mask(task, camera, found.mask);
+      if (task.request.masks.empty())
+        result->said = said_by_mask(task, camera, found.mask, found.median_depth);
     }
   } else if (by_parts) {
     clock.time("first mask", [&] { select_by_strokes(task, camera, &found.median_depth, result); });
