@@ -287,8 +287,26 @@ Selection shrunk(const FlowGraph& graph, const Selection& selection) {
   });
 }
 
+namespace {
+
+// Standard deviation along a unit direction.
+float deviation_along(const GaussianCloud& cloud, std::size_t g, const glm::vec3& direction) {
+  return glm::length(cloud.scale[g] * (glm::conjugate(cloud.rotation[g]) * direction));
+}
+
+// True if the ellipsoids of one standard deviation lie no farther apart along the line between the centres.
+bool within_gap(const GaussianCloud& cloud, std::size_t g, std::size_t h, float gap) {
+  const glm::vec3 apart = cloud.position[h] - cloud.position[g];
+  const float distance = glm::length(apart);
+  if (distance <= gap) return true;
+  const glm::vec3 direction = apart / distance;
+  return distance - deviation_along(cloud, g, direction) - deviation_along(cloud, h, direction) <= gap;
+}
+
+}  // namespace
+
 Parts connected_parts(const GaussianCloud& cloud, const FlowGraph& graph, const Selection& selection,
-                      float longest) {
+                      float most_gap) {
   constexpr std::int32_t kNotYet = -2;
   Parts parts;
   parts.part.assign(selection.size(), -1);
@@ -307,8 +325,7 @@ Parts connected_parts(const GaussianCloud& cloud, const FlowGraph& graph, const 
       ++parts.size.back();
       for (std::uint32_t a = graph.first_arc[g]; a < graph.first_arc[g + 1]; ++a) {
         const std::uint32_t h = graph.head[a];
-        if (parts.part[h] != kNotYet || glm::length(cloud.position[g] - cloud.position[h]) > longest)
-          continue;
+        if (parts.part[h] != kNotYet || !within_gap(cloud, g, h, most_gap)) continue;
         parts.part[h] = number;
         open.push_back(h);
       }
@@ -338,8 +355,8 @@ Selection largest_part(const GaussianCloud& cloud, const FlowGraph& graph, const
 
 Selection floaters(const GaussianCloud& cloud, const FlowGraph& graph, const Selection& selection,
                    const FloaterOptions& options) {
-  const float longest = options.gap_spacings * usual_spacing(cloud, graph, selection);
-  const Parts parts = connected_parts(cloud, graph, selection, longest);
+  const float most_gap = options.gap_spacings * usual_spacing(cloud, graph, selection);
+  const Parts parts = connected_parts(cloud, graph, selection, most_gap);
   const double most = options.most_share * static_cast<double>(count_if(selection.begin(), selection.end(),
                                                                         [](auto s) { return s != 0; }));
   return where(selection.size(), [&](std::size_t g) {

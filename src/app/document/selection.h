@@ -88,9 +88,10 @@ struct Parts {
   std::vector<std::int32_t> part;  // number of each Gaussian's part, from 0; -1: not selected
   std::vector<std::size_t> size;   // number of Gaussians in each part
 };
-// longest: graph edges longer than this, in scene units, do not connect.
+// most_gap: graph edges between ellipsoids of one standard deviation that lie farther apart, in scene units,
+// do not connect.
 Parts connected_parts(const GaussianCloud& cloud, const FlowGraph& graph, const Selection& selection,
-                      float longest = std::numeric_limits<float>::infinity());
+                      float most_gap = std::numeric_limits<float>::infinity());
 Selection largest_part(const GaussianCloud& cloud, const FlowGraph& graph, const Selection& selection);
 
 struct FloaterOptions {
