@@ -162,8 +162,8 @@ constexpr std::array kColmapFolders = {"",
                                        "undistorted/sparse",
                                        "distorted/sparse/0"};
 
-// What artists have, whose programs write what is read as well.
-void refuse_other_programs(const fs::path& path) {
+// Files of other programs, which write what is read as well, and files that hold no cameras.
+void refuse_other_files(const fs::path& path) {
   const std::string ending = lower_case(path.extension().string());
   if (ending == ".csv")
     throw Error(path.string(), "is a list of cameras (RealityCapture), which is not read",
@@ -171,6 +171,11 @@ void refuse_other_programs(const fs::path& path) {
   if (ending == ".xml")
     throw Error(path.string(), "holds cameras of Metashape, which are not read",
                 "Export COLMAP there: File > Export > Export Cameras, type Colmap");
+  constexpr std::array kNoCameras = {".ply",  ".splat", ".spz", ".sog", ".ksplat", ".lcc",
+                                     ".gltf", ".glb",   ".png", ".jpg", ".jpeg",   ".webp"};
+  if (std::ranges::find(kNoCameras, ending) != kNoCameras.end())
+    throw Error(path.string(), "is a scene or a picture, no list of cameras",
+                "Give cameras.json, transforms.json or a COLMAP folder");
 }
 
 std::vector<Camera> load_any_cameras(const fs::path& path, const glm::dvec3& origin, CameraRemarks* remarks) {
@@ -188,7 +193,7 @@ std::vector<Camera> load_any_cameras(const fs::path& path, const glm::dvec3& ori
         "looked for, those also in " +
             fmt::format("{}", fmt::join(kColmapFolders.begin() + 1, kColmapFolders.end(), ", ")));
   }
-  refuse_other_programs(path);
+  refuse_other_files(path);
   const bool colmap = path.extension() == ".bin" || path.extension() == ".txt";
   if (!colmap) return load_json_cameras(path, origin, remarks);
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");

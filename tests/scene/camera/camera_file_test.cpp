@@ -131,6 +131,8 @@ TEST_CASE("folders of captures: COLMAP where nerfstudio and Inria's scripts put 
   CHECK(camera_refusal(folder / "a.csv").find("RealityCapture") != std::string::npos);
   write(folder / "a.xml", "<document/>");
   CHECK(camera_refusal(folder / "a.xml").find("Metashape") != std::string::npos);
+  write(folder / "a.PLY", "ply\n");
+  CHECK(camera_refusal(folder / "a.PLY").find("no list of cameras") != std::string::npos);
 }
 
 TEST_CASE("one bad camera of many is left out with a sentence, where all are bad that is the error") {
