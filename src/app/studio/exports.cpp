@@ -27,7 +27,8 @@ bool Exports::have_all() const {
   return std::ranges::all_of(document.objects, [&](const ObjectItem& item) {
     const Flags now = ws_.labels.labels(document, item, ws_.gaussians());
     const auto then = exported_.find(item.id);
-    return count_flags(*now) == 0 || (then != exported_.end() && *then->second.labels == *now);
+    return ws_.gaussians_of(item.id) == 0 ||
+           (then != exported_.end() && (then->second.labels == now || *then->second.labels == *now));
   });
 }
 
