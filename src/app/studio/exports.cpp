@@ -106,7 +106,7 @@ void Exports::perform(const SaveSnapshot& c) {
        before = viewport_.styles(), limits = viewport_.draw_limits()](const Job& job) {
         job.progress("drawing", 0);
         LabelCache labels;
-        const Styles styles = styled(order, before, &labels);
+        const Styles styles = styled(order, before, &labels, job);
         const auto& clean = styles.clean[0];
         const Image<Rgba8> picture =
             capture(clean ? clean->cloud : *order.cloud, camera, clean ? nullptr : styles.shown[0], limits,

@@ -157,8 +157,8 @@ class Studio {
   void step_camera(int direction);
   void hold(const Modifiers& modifiers);
   // What a press means depends on what is shown: from a change of display on, the pointer's events wait until
-  // the panes follow it.
-  void pointer(std::function<void()> event);
+  // the panes follow it. What only moves the view or the pointer does not, where there is one pane all along.
+  void pointer(std::function<void()> event, bool moves_alone);
   Flight flight() const;
   void press_at(const glm::vec2& pixel, PointerButton button, const Modifiers& modifiers);
   void move_to(const glm::vec2& pixel, const Modifiers& modifiers);
