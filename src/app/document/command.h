@@ -39,6 +39,7 @@ struct EditContext {
   SceneGraph* graph = nullptr;  // graph of the cloud; null if no edit asks for neighbours
   Job job{};
   const Document* undone = nullptr;  // state that undo, redo or a jump led away from last; null: none
+  LabelCache* labels = nullptr;      // cache of the thread that edits; null: it has none
 };
 
 template <class C>

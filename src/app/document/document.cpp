@@ -8,6 +8,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "app/document/label_cache.h"
 #include "core/error.h"
 #include "segment/finish/shown_part.h"
 
@@ -29,6 +30,46 @@ float difference(const glm::vec3& a, const glm::vec3& b) {
   const float red = 0.5f * (a.r + b.r);
   const glm::vec3 d = a - b;
   return std::sqrt((2 + red) * d.r * d.r + 4 * d.g * d.g + (3 - red) * d.b * d.b);
+}
+
+// Changes each byte by the one of the same place. The compiler takes 16 at a time where the change is no
+// branch: the window waits for these passes.
+template <class Change>
+void change_each(std::vector<std::uint8_t>* bytes, const std::vector<std::uint8_t>& by, Change change) {
+  assert(bytes->size() == by.size());
+  std::uint8_t* to = bytes->data();
+  const std::uint8_t* from = by.data();
+  const std::size_t n = bytes->size();
+  for (std::size_t g = 0; g < n; ++g) to[g] = change(to[g], from[g]);
+}
+
+using Byte = std::uint8_t;
+void add(const std::vector<Byte>& flags, std::vector<Byte>* to) {
+  change_each(to, flags, [](Byte a, Byte b) { return static_cast<Byte>(a | b); });
+}
+void take_out(const std::vector<Byte>& flags, std::vector<Byte>* of) {
+  change_each(of, flags, [](Byte a, Byte b) { return b != 0 ? Byte{0} : a; });
+}
+void keep_in(const std::vector<Byte>& flags, std::vector<Byte>* of) {
+  change_each(of, flags, [](Byte a, Byte b) { return b != 0 ? a : Byte{0}; });
+}
+
+// How many of n places something holds for. A byte counts to 255, and 16 of them count at a time.
+template <class Holds>
+std::size_t count_places(std::size_t n, Holds holds) {
+  constexpr std::size_t kMost = 255;
+  std::size_t count = 0;
+  for (std::size_t begin = 0; begin < n; begin += kMost) {
+    const std::size_t end = std::min(n, begin + kMost);
+    Byte some = 0;
+    for (std::size_t g = begin; g < end; ++g) some = static_cast<Byte>(some + holds(g));
+    count += some;
+  }
+  return count;
+}
+
+std::size_t count_both(const std::vector<Byte>& a, const std::vector<Byte>& b) {
+  return count_places(a.size(), [x = a.data(), y = b.data()](std::size_t g) { return (x[g] & y[g]) != 0; });
 }
 
 bool none_set(const Flags& flags) {
@@ -69,12 +110,12 @@ bool are_apart(const Document& document, const ObjectItem& a, const ObjectItem& 
 
 // What those of the other objects have that are asked for, but for parts of this one and wholes of it.
 template <class IsAsked>
-Flags had_by(const Document& document, const ObjectItem& object, std::size_t gaussians, IsAsked is_asked) {
+Flags had_by(const Document& document, const ObjectItem& object, std::size_t gaussians, LabelCache* known,
+             IsAsked is_asked) {
   std::vector<std::uint8_t> had(gaussians, 0);
   for (const ObjectItem& other : document.objects) {
     if (!is_asked(other) || !are_apart(document, object, other)) continue;
-    const std::vector<std::uint8_t> labels = labels_of(document, other, gaussians);
-    for (std::size_t g = 0; g < gaussians; ++g) had[g] |= labels[g];
+    add(*known_labels(document, other, gaussians, known), &had);
   }
   return count_flags(had) > 0 ? make_flags(std::move(had)) : nullptr;
 }
@@ -99,31 +140,30 @@ void set_left(ObjectItem* object, Flags of_others, bool hands_are_later) {
 
 // share_what_is_hit() with those alone of `only`, if there are any.
 void share_with(const Document& document, ObjectItem* object, std::span<const std::int32_t> hits,
-                std::size_t gaussians, std::span<const ObjectId> only) {
+                std::size_t gaussians, std::span<const ObjectId> only, LabelCache* known) {
   std::vector<std::uint8_t> left = *object->of_others, had(gaussians, 0), shared = had, stays = had;
   std::vector<ObjectId> hit;
   for (const ObjectItem& other : document.objects) {  // parts behind their wholes
     if (!are_apart(document, *object, other)) continue;
-    const std::vector<std::uint8_t> labels = labels_of(document, other, gaussians);
-    const auto is_left = [&](std::size_t g) { return labels[g] && left[g]; };
+    const Flags labels = known_labels(document, other, gaussians, known);
+    const auto is_left = [&](std::size_t g) { return (*labels)[g] && left[g]; };
     const bool is_hit =
         !other.locked && (holds(hit, other.within) ||
                           ((only.empty() || holds(only, other.id)) && holds_for_most(hits, is_left)));
     if (is_hit) hit.push_back(other.id);
-    std::size_t count = 0, count_left = 0;
-    for (std::size_t g = 0; g < gaussians; ++g) {
-      had[g] |= labels[g];
-      shared[g] |= labels[g] && is_hit;
-      count += labels[g];
-      count_left += is_left(g);
-    }
-    // Of one that it shared with before, it leaves only what others have, too.
-    if (!is_hit && (other.locked || 2 * count_left > count))
-      for (std::size_t g = 0; g < gaussians; ++g) stays[g] |= labels[g];
+    add(*labels, &had);
+    if (is_hit)
+      add(*labels, &shared);
+    else if (other.locked || 2 * count_both(*labels, left) > count_flags(*labels))
+      add(*labels, &stays);  // of one that it shared with before, it leaves only what others have, too
   }
   if (hit.empty() && !only.empty()) return;
-  for (std::size_t g = 0; g < gaussians; ++g)
-    left[g] = left[g] && (hit.empty() ? had[g] != 0 : stays[g] || !shared[g]);
+  if (hit.empty()) {
+    keep_in(had, &left);
+  } else {
+    take_out(stays, &shared);
+    take_out(shared, &left);
+  }
   std::erase_if(object->leaves_also, [&](ObjectId id) { return holds(hit, id); });
   set_left(object, count_flags(left) > 0 ? make_flags(std::move(left)) : nullptr, true);
 }
@@ -190,21 +230,16 @@ bool is_stale(const ObjectItem& object, const std::string& key) {
 
 std::vector<std::uint8_t> labels_of(const Document& document, const ObjectItem& object,
                                     std::size_t gaussians) {
-  std::vector<std::uint8_t> labels(gaussians, 0);
-  if (object.cut) labels = *object.cut;
+  std::vector<std::uint8_t> labels = object.cut ? *object.cut : std::vector<std::uint8_t>(gaussians, 0);
   assert(labels.size() == gaussians);
-  if (object.of_others)
-    for (std::size_t g = 0; g < gaussians; ++g) labels[g] = labels[g] && !(*object.of_others)[g];
+  if (object.of_others) take_out(*object.of_others, &labels);
   if (object.hand)
-    for (std::size_t g = 0; g < gaussians; ++g)
-      if (const std::uint8_t mark = (*object.hand)[g]; mark == kHandObject || mark == kHandRest)
-        labels[g] = mark == kHandObject;
-  if (document.deleted)
-    for (std::size_t g = 0; g < gaussians; ++g) labels[g] = labels[g] && !(*document.deleted)[g];
-  if (const ObjectItem* whole = document.find(object.within)) {
-    const std::vector<std::uint8_t> limit = labels_of(document, *whole, gaussians);
-    for (std::size_t g = 0; g < gaussians; ++g) labels[g] = labels[g] && limit[g];
-  }
+    change_each(&labels, *object.hand, [](Byte label, Byte mark) {
+      return mark == kHandObject ? Byte{1} : mark == kHandRest ? Byte{0} : label;
+    });
+  if (document.deleted) take_out(*document.deleted, &labels);
+  if (const ObjectItem* whole = document.find(object.within))
+    keep_in(labels_of(document, *whole, gaussians), &labels);
   return labels;
 }
 
@@ -223,26 +258,26 @@ bool is_part_of(const Document& document, const ObjectItem& part, ObjectId whole
   return false;
 }
 
-Flags had_by_others(const Document& document, const ObjectItem& object, std::size_t gaussians,
-                    ObjectId only) {
-  return had_by(document, object, gaussians,
+Flags had_by_others(const Document& document, const ObjectItem& object, std::size_t gaussians, ObjectId only,
+                    LabelCache* known) {
+  return had_by(document, object, gaussians, known,
                 [&](const ObjectItem& other) { return only == 0 || other.id == only; });
 }
 
-Flags kept_by_locked(const Document& document, const ObjectItem& object, std::size_t gaussians) {
-  const Flags had = had_by(document, object, gaussians, [](const ObjectItem& o) { return o.locked; });
+Flags kept_by_locked(const Document& document, const ObjectItem& object, std::size_t gaussians,
+                     LabelCache* known) {
+  const Flags had = had_by(document, object, gaussians, known, [](const ObjectItem& o) { return o.locked; });
   if (!had) return nullptr;
-  const std::vector<std::uint8_t> own = labels_of(document, object, gaussians);
   std::vector<std::uint8_t> kept = *had;
-  for (std::size_t g = 0; g < gaussians; ++g) kept[g] = kept[g] && !own[g];
+  take_out(*known_labels(document, object, gaussians, known), &kept);
   return count_flags(kept) > 0 ? make_flags(std::move(kept)) : nullptr;
 }
 
-void leave_to_locked(const Document& document, ObjectItem* object, std::size_t gaussians) {
-  const Flags kept = kept_by_locked(document, *object, gaussians);
+void leave_to_locked(const Document& document, ObjectItem* object, std::size_t gaussians, LabelCache* known) {
+  const Flags kept = kept_by_locked(document, *object, gaussians, known);
   if (!kept) return;
   std::vector<std::uint8_t> left = *kept;
-  for (std::size_t g = 0; object->of_others && g < gaussians; ++g) left[g] |= (*object->of_others)[g];
+  if (object->of_others) add(*object->of_others, &left);
   if (!object->of_others || left != *object->of_others) object->of_others = make_flags(std::move(left));
 }
 
@@ -277,11 +312,12 @@ const ObjectItem* locked_under(const Document& document, const ObjectItem& objec
   return found != keepers.end() ? *found : nullptr;
 }
 
-bool is_without_others(const Document& document, const ObjectItem& object, std::size_t gaussians) {
+bool is_without_others(const Document& document, const ObjectItem& object, std::size_t gaussians,
+                       LabelCache* known) {
   if (!object.of_others) return false;
   for (std::size_t g = 0; object.hand && g < object.hand->size(); ++g)
     if ((*object.hand)[g] == kHandObject && (*object.of_others)[g]) return false;
-  const Flags kept = kept_by_locked(document, object, gaussians);
+  const Flags kept = kept_by_locked(document, object, gaussians, known);
   if (!kept) return true;
   for (std::size_t g = 0; g < gaussians; ++g)
     if ((*object.of_others)[g] && !(*kept)[g]) return true;
@@ -297,17 +333,17 @@ void set_left_earlier(ObjectItem* object, Flags of_others) {
   set_left(object, std::move(of_others), true);
 }
 
-void share_again(const Document& document, ObjectItem* object, std::size_t gaussians) {
-  set_of_others(object, kept_by_locked(document, *object, gaussians));
+void share_again(const Document& document, ObjectItem* object, std::size_t gaussians, LabelCache* known) {
+  set_of_others(object, kept_by_locked(document, *object, gaussians, known));
 }
 
 void share_what_is_hit(const Document& document, ObjectItem* object, std::span<const std::int32_t> hits,
-                       std::size_t gaussians) {
-  share_with(document, object, hits, gaussians, {});
+                       std::size_t gaussians, LabelCache* known) {
+  share_with(document, object, hits, gaussians, {}, known);
 }
 
-void leave_to_others(const Document& document, ObjectItem* object, std::size_t gaussians) {
-  set_of_others(object, had_by_others(document, *object, gaussians));
+void leave_to_others(const Document& document, ObjectItem* object, std::size_t gaussians, LabelCache* known) {
+  set_of_others(object, had_by_others(document, *object, gaussians, 0, known));
   for (const ObjectItem& other : document.objects)
     if (other.id != object->id && is_stale(document, other)) object->leaves_also.push_back(other.id);
 }
@@ -339,26 +375,25 @@ bool means_what_is_left(const Document& document, const ObjectItem& object,
 }
 
 ObjectItem left_what_came(const Document& document, const ObjectItem& object, std::span<const ObjectId> came,
-                          const HitsOfStrokes& hits, std::size_t gaussians) {
+                          const HitsOfStrokes& hits, std::size_t gaussians, LabelCache* known) {
   ObjectItem out = object;
   std::erase_if(out.leaves_also, [&](ObjectId id) { return holds(came, id); });
   std::vector<Flags> had, may_be_shared;
   for (const ObjectId id : came)
-    if (Flags of_one = had_by_others(document, object, gaussians, id)) {
+    if (Flags of_one = had_by_others(document, object, gaussians, id, known)) {
       if (!document.find(id)->locked) may_be_shared.push_back(of_one);
       had.push_back(std::move(of_one));
     }
   if (had.empty()) return out;
   std::vector<std::uint8_t> all(gaussians, 0);
   if (out.of_others) all = *out.of_others;
-  for (const Flags& of_one : had)
-    for (std::size_t g = 0; g < gaussians; ++g) all[g] |= (*of_one)[g];
+  for (const Flags& of_one : had) add(*of_one, &all);
   set_left_earlier(&out, make_flags(std::move(all)));
   if (may_be_shared.empty()) return out;
   for (const std::vector<std::int32_t>& of_stroke : hits()) {
     const auto is_meant = [&](const Flags& of_one) { return is_made_on(of_one, of_stroke); };
     if (out.of_others && std::ranges::any_of(may_be_shared, is_meant))
-      share_with(document, &out, of_stroke, gaussians, came);
+      share_with(document, &out, of_stroke, gaussians, came, known);
   }
   return out;
 }
@@ -415,7 +450,7 @@ void stand_out(Document* document, ObjectId object, const glm::vec3& under) {
 }
 
 std::size_t count_flags(std::span<const std::uint8_t> flags) {
-  return static_cast<std::size_t>(std::ranges::count_if(flags, [](std::uint8_t f) { return f != 0; }));
+  return count_places(flags.size(), [values = flags.data()](std::size_t g) { return values[g] != 0; });
 }
 
 bool same_but_strokes(const Document& a, const Document& b) {

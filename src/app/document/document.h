@@ -100,15 +100,21 @@ bool has(const Document& document, const ObjectItem& object, std::size_t gaussia
 // True if an object is a part of `whole`, or a part of such a part.
 bool is_part_of(const Document& document, const ObjectItem& part, ObjectId whole);
 
+// What follows asks for labels of many objects. known: cache of the calling thread, which has most of them;
+// null: they are computed.
+class LabelCache;
+
 // All that other objects have, but for parts of this one and wholes that it is a part of; null: nothing.
 // only: the one that counts, 0: all.
 Flags had_by_others(const Document& document, const ObjectItem& object, std::size_t gaussians,
-                    ObjectId only = 0);
+                    ObjectId only = 0, LabelCache* known = nullptr);
 
 // What locked ones of these have and the object has not: nothing gives it that; null: nothing.
-Flags kept_by_locked(const Document& document, const ObjectItem& object, std::size_t gaussians);
+Flags kept_by_locked(const Document& document, const ObjectItem& object, std::size_t gaussians,
+                     LabelCache* known = nullptr);
 // Leaves that to them, too.
-void leave_to_locked(const Document& document, ObjectItem* object, std::size_t gaussians);
+void leave_to_locked(const Document& document, ObjectItem* object, std::size_t gaussians,
+                     LabelCache* known = nullptr);
 // Leaves the same of one that was locked now to each of the others. It costs rows x objects, as the window
 // waits for it.
 void leave_to_locked_one(Document* document, const ObjectItem& locked, std::size_t gaussians);
@@ -118,7 +124,8 @@ const ObjectItem* locked_under(const Document& document, const ObjectItem& objec
 
 // Whether the object leaves to others all that it is to leave, also what a hand took since, and not to
 // locked ones alone.
-bool is_without_others(const Document& document, const ObjectItem& object, std::size_t gaussians);
+bool is_without_others(const Document& document, const ObjectItem& object, std::size_t gaussians,
+                       LabelCache* known = nullptr);
 
 // Sets ObjectItem::of_others, with nothing on its way. What hands took of that is left to the others, too;
 // what hands had taken of what was left before is the object's again.
@@ -129,17 +136,19 @@ void set_left_earlier(ObjectItem* object, Flags of_others);
 // has it any more, all that none has. What locked ones have, and what it leaves to the remaining ones, stays
 // theirs, also where those that are hit have it, too. of_others: not null.
 void share_what_is_hit(const Document& document, ObjectItem* object, std::span<const std::int32_t> hits,
-                       std::size_t gaussians);
+                       std::size_t gaussians, LabelCache* known = nullptr);
 // Sets it to nothing but what locked ones keep.
-void share_again(const Document& document, ObjectItem* object, std::size_t gaussians);
+void share_again(const Document& document, ObjectItem* object, std::size_t gaussians,
+                 LabelCache* known = nullptr);
 // Sets it to all that other objects have, and have on their way.
-void leave_to_others(const Document& document, ObjectItem* object, std::size_t gaussians);
+void leave_to_others(const Document& document, ObjectItem* object, std::size_t gaussians,
+                     LabelCache* known = nullptr);
 // The object with what the objects `came`, of its `leaves_also`, have now. hits: asked for the Gaussians that
 // each of its strokes hits where they have anything; a stroke that means one of these objects shares with it
 // alone.
 using HitsOfStrokes = std::function<std::vector<std::vector<std::int32_t>>()>;
 ObjectItem left_what_came(const Document& document, const ObjectItem& object, std::span<const ObjectId> came,
-                          const HitsOfStrokes& hits, std::size_t gaussians);
+                          const HitsOfStrokes& hits, std::size_t gaussians, LabelCache* known = nullptr);
 
 // Whether a stroke that hits these Gaussians means what the object leaves to one of the others: that has more
 // than half of them.

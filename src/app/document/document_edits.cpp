@@ -49,10 +49,11 @@ void settle_with_others(Document* document, ObjectItem* object, std::span<const 
     if (!hits.empty())                            // of a box the one in its middle
       stand_out(document, object->id,
                 base_colour(context.cloud, static_cast<std::size_t>(hits[hits.size() / 2])));
-    leave_to_others(*document, object, n);
+    leave_to_others(*document, object, n, context.labels);
   }
-  if (means_what_is_left(*document, *object, hits)) share_what_is_hit(*document, object, hits, n);
-  leave_to_locked(*document, object, n);
+  if (means_what_is_left(*document, *object, hits))
+    share_what_is_hit(*document, object, hits, n, context.labels);
+  leave_to_locked(*document, object, n, context.labels);
   if (reaches_beyond(*object, hits)) object->among = nullptr;
 }
 
@@ -83,7 +84,7 @@ void forget_cut(ObjectItem* object) {
 
 bool is_begun_by_next(const Document& document, const ObjectItem& object, const EditContext& context) {
   if (std::ranges::any_of(object.views, marks_object)) return false;
-  return (!object.cut && !object.hand) || count_flags(labels(document, object, context)) == 0;
+  return (!object.cut && !object.hand) || count_of(document, object, context) == 0;
 }
 
 std::span<const Backdrop> backdrops() {
@@ -139,7 +140,7 @@ std::string added_by_box(const History& history, ObjectId id, const EditContext&
 Flags left_by_stroke(const Document& document, const EditContext& context) {
   const ObjectItem* object = document.active_object();
   if (object && !is_begun_by_next(document, *object, context)) return object->of_others;
-  return had_by_others(document, object ? *object : ObjectItem{}, context.cloud.size());
+  return had_by_others(document, object ? *object : ObjectItem{}, context.cloud.size(), 0, context.labels);
 }
 
 Flags changed_by(const Document& document, const AddStroke& stroke, std::vector<std::uint8_t> before,
@@ -229,12 +230,12 @@ void leave(Flags others, const ObjectItem& before, ObjectItem* object) {
 // What the object left to others in `before`, and with a stroke in `made` no more: it leaves that again,
 // unless it leaves some of that meanwhile, and not because it is locked.
 void leave_again(const Document& document, const ObjectItem& before, const ObjectItem& made,
-                 ObjectItem* object, std::size_t gaussians) {
+                 ObjectItem* object, std::size_t gaussians, LabelCache* known) {
   const auto is_later = [&](ObjectId id) {
     return std::ranges::find(made.leaves_also, id) == made.leaves_also.end();
   };
   if (!before.of_others || std::ranges::any_of(object->leaves_also, is_later)) return;
-  const Flags kept = kept_by_locked(document, *object, gaussians);
+  const Flags kept = kept_by_locked(document, *object, gaussians, known);
   const auto has = [](const Flags& flags, std::size_t g) { return flags && (*flags)[g]; };
   std::vector<std::uint8_t> left = *before.of_others;
   bool ended = false;
@@ -252,7 +253,7 @@ void leave_again(const Document& document, const ObjectItem& before, const Objec
 }  // namespace
 
 void take_back_sharing(const History& history, const RemoveStroke& gone, Document* document,
-                       std::size_t gaussians) {
+                       std::size_t gaussians, LabelCache* known) {
   ObjectItem* object = document->find(document->active);
   const ObjectItem* now = history.now().find(object->id);
   const Camera& camera = now->views.at(gone.view).camera;
@@ -271,7 +272,7 @@ void take_back_sharing(const History& history, const RemoveStroke& gone, Documen
       made = before;
       continue;
     }
-    leave_again(*document, *before, *made, object, gaussians);
+    leave_again(*document, *before, *made, object, gaussians, known);
     if (before->among && !made->among && !object->among) object->among = before->among;
     return;
   }

@@ -50,7 +50,7 @@ Flags left_by_stroke(const Document& document, const EditContext& context);
 // object those back that the history knows, unless they were changed again since. document: a copy of now(),
 // without the click.
 void take_back_sharing(const History& history, const RemoveStroke& gone, Document* document,
-                       std::size_t gaussians);
+                       std::size_t gaussians, LabelCache* known = nullptr);
 
 // Gaussians whose labels a stroke changes, where the cut alone gives the active object `before` without it
 // and `after` it with it. left: left_by_stroke().

@@ -6,6 +6,7 @@
 #include <cassert>
 
 #include "app/document/document_edits.h"
+#include "app/document/label_cache.h"
 #include "app/document/scene_graph.h"
 #include "app/document/words.h"
 #include "core/error.h"
@@ -39,9 +40,14 @@ inline std::vector<std::uint8_t> labels(const Document& document, const ObjectIt
   return labels_of(document, object, context.cloud.size());
 }
 
+inline std::size_t count_of(const Document& document, const ObjectItem& object, const EditContext& context) {
+  return context.labels ? context.labels->count(document, object, context.cloud.size())
+                        : count_flags(labels(document, object, context));
+}
+
 inline std::string counted(const Document& document, const ObjectItem& object, const EditContext& context) {
-  return fmt::format("{}: {} of {} Gaussians", object.name,
-                     grouped(count_flags(labels(document, object, context))), grouped(context.cloud.size()));
+  return fmt::format("{}: {} of {} Gaussians", object.name, grouped(count_of(document, object, context)),
+                     grouped(context.cloud.size()));
 }
 
 }  // namespace splatcut

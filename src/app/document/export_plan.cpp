@@ -8,6 +8,7 @@
 #include "app/console/kept_inputs.h"
 #include "app/console/labels_file.h"
 #include "app/console/output_folder.h"
+#include "app/document/label_cache.h"
 #include "app/document/words.h"
 #include "core/error.h"
 
@@ -76,12 +77,14 @@ void save(const std::filesystem::path& path, const std::vector<std::uint8_t>& ke
 }
 
 // The place in the list of the last object that has the Gaussian, from 1; 0: none has it.
-std::vector<std::uint8_t> owners(const Document& document, std::size_t gaussians) {
+std::vector<std::uint8_t> owners(const Document& document, std::size_t gaussians, LabelCache* known) {
   std::vector<std::uint8_t> owner(gaussians, 0);
   for (std::size_t o = 0; o < document.objects.size(); ++o) {
-    const std::vector<std::uint8_t> labels = labels_of(document, document.objects[o], gaussians);
-    for (std::size_t g = 0; g < gaussians; ++g)
-      if (labels[g]) owner[g] = static_cast<std::uint8_t>(o + 1);
+    const Flags labels = known_labels(document, document.objects[o], gaussians, known);
+    const auto number = static_cast<std::uint8_t>(o + 1);
+    const std::uint8_t* is_own = labels->data();
+    std::uint8_t* to = owner.data();
+    for (std::size_t g = 0; g < gaussians; ++g) to[g] = is_own[g] ? number : to[g];  // it is no branch
   }
   return owner;
 }
@@ -125,13 +128,14 @@ std::size_t bytes_of_letter(std::string_view text) {
 }  // namespace
 
 std::vector<std::uint8_t> exported(const Document& document, ObjectId object, ExportWhat what,
-                                   std::size_t gaussians) {
-  if (what == ExportWhat::kAllObjects || what == ExportWhat::kOneFile) return owners(document, gaussians);
+                                   std::size_t gaussians, LabelCache* known) {
+  if (what == ExportWhat::kAllObjects || what == ExportWhat::kOneFile)
+    return owners(document, gaussians, known);
   const ObjectItem* item = document.find(object);
   if (what == ExportWhat::kObject)
-    return item ? labels_of(document, *item, gaussians) : std::vector<std::uint8_t>(gaussians, 0);
+    return item ? *known_labels(document, *item, gaussians, known) : std::vector<std::uint8_t>(gaussians, 0);
   std::vector<std::uint8_t> keep(gaussians, 1);
-  if (what == ExportWhat::kRest && item) keep = labels_of(document, *item, gaussians);
+  if (what == ExportWhat::kRest && item) keep = *known_labels(document, *item, gaussians, known);
   for (std::size_t g = 0; g < gaussians; ++g) {
     if (what == ExportWhat::kRest && item) keep[g] = !keep[g];
     if (document.deleted && (*document.deleted)[g]) keep[g] = 0;
@@ -159,11 +163,11 @@ std::string free_file_name(const std::string& object_name, std::set<std::string>
 }
 
 void visit_objects(const Document& document, std::size_t gaussians,
-                   const std::function<void(const ObjectToSave&)>& visit) {
+                   const std::function<void(const ObjectToSave&)>& visit, LabelCache* known) {
   std::set<std::string> taken;
   for (const ObjectItem& item : document.objects) {
-    const std::vector<std::uint8_t> labels = labels_of(document, item, gaussians);
-    if (count_flags(labels) > 0) visit({item.name, free_file_name(item.name, &taken), labels});
+    const Flags labels = known_labels(document, item, gaussians, known);
+    if (count_flags(*labels) > 0) visit({item.name, free_file_name(item.name, &taken), *labels});
   }
 }
 

@@ -57,9 +57,9 @@ std::string text_of(const ExportReport& report, const std::filesystem::path& pat
 
 // Flags per Gaussian of the scene: not 0 if the export writes it, for kAllObjects into any of its
 // files; for kOneFile the number of its object.
-// gaussians: size of the cloud.
+// gaussians: size of the cloud. known: as of document.h.
 std::vector<std::uint8_t> exported(const Document& document, ObjectId object, ExportWhat what,
-                                   std::size_t gaussians);
+                                   std::size_t gaussians, LabelCache* known = nullptr);
 
 // Where Gaussians are moved to, and whether the scene's origin (scene_file.h) is added to that.
 struct MovedTo {
@@ -101,7 +101,7 @@ struct ObjectToSave {
   const std::vector<std::uint8_t>& labels;  // per Gaussian of the scene, 1 = object
 };
 void visit_objects(const Document& document, std::size_t gaussians,
-                   const std::function<void(const ObjectToSave&)>& visit);
+                   const std::function<void(const ObjectToSave&)>& visit, LabelCache* known = nullptr);
 
 // Writes the files of an export. clean: cache of the same scene; may be null if the request wants neither
 // clean edges nor a hole filled. Throws Error if there is nothing to export, if a number of the placement is

@@ -28,4 +28,10 @@ std::size_t LabelCache::count(const Document& document, const ObjectItem& object
   return kept(document, object, gaussians).count;
 }
 
+Flags known_labels(const Document& document, const ObjectItem& object, std::size_t gaussians,
+                   LabelCache* known) {
+  return known ? known->labels(document, object, gaussians)
+               : make_flags(labels_of(document, object, gaussians));
+}
+
 }  // namespace splatcut

@@ -28,4 +28,8 @@ class LabelCache {
   std::map<ObjectId, Kept> kept_;
 };
 
+// The same from a cache; null: they are computed.
+Flags known_labels(const Document& document, const ObjectItem& object, std::size_t gaussians,
+                   LabelCache* known);
+
 }  // namespace splatcut

@@ -161,9 +161,9 @@ std::string edit(Document* document, const SeparateObject& command, const EditCo
 std::string edit(Document* document, const LeaveToOthers& command, const EditContext& context) {
   ObjectItem& object = unlocked(document, command.object);
   if (command.leaves)
-    set_of_others(&object, had_by_others(*document, object, context.cloud.size()));
+    set_of_others(&object, had_by_others(*document, object, context.cloud.size(), 0, context.labels));
   else
-    share_again(*document, &object, context.cloud.size());
+    share_again(*document, &object, context.cloud.size(), context.labels);
   if (command.leaves && !object.of_others) return "The other objects have nothing: " + object.name + " stays";
   return fmt::format("{}: {}", command.leaves ? "Now without the other objects" : "Now with what others have",
                      counted(*document, object, context));

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "app/document/words.h"
+#include "segment/finish/shown_part.h"
 #include "segment/session/doubts.h"
 
 namespace splatcut {
@@ -130,18 +131,21 @@ std::string tip_of_card(const ViewCard& card, std::size_t index, bool steady) {
 std::string shared_with(const Document& document, ObjectId id, const LabelsOfObject& labels_of_object) {
   const ObjectItem* object = document.find(id);
   const Flags own = labels_of_object(*object);
+  const std::vector<std::uint32_t> rows = labelled_rows(*own);
+  std::vector<std::uint32_t> left;  // what it would have, and leaves to others
+  for (std::uint32_t g = 0; object->cut && object->of_others && g < own->size(); ++g)
+    if ((*object->cut)[g] & (*object->of_others)[g] & !(*own)[g]) left.push_back(g);
   for (const ObjectItem& other : document.objects) {
     if (other.id == id || other.id == object->within || other.within == id) continue;
     const Flags labels = labels_of_object(other);
-    std::size_t both = 0, kept = 0;
-    for (std::size_t g = 0; object->cut && object->of_others && g < own->size(); ++g)
-      kept += (*object->cut)[g] & (*object->of_others)[g] & (*labels)[g] & !(*own)[g];
+    const auto has = [&](std::uint32_t g) { return (*labels)[g] != 0; };
+    const auto kept = static_cast<std::size_t>(std::ranges::count_if(left, has));
     constexpr double kWorthSaying = 0.01;  // of the object
-    if (kept > 0 && static_cast<double>(kept) >= kWorthSaying * static_cast<double>(count_flags(*own)))
+    if (kept > 0 && static_cast<double>(kept) >= kWorthSaying * static_cast<double>(rows.size()))
       return fmt::format(". {} that {} had before stay its own; the menu of {} has a way to take them, too",
                          gaussians_text(kept), other.name, object->name);
-    for (std::size_t g = 0; g < own->size(); ++g) both += (*own)[g] & (*labels)[g];
-    if (2 * both > count_flags(*labels) && both > 0)
+    const auto both = static_cast<std::size_t>(std::ranges::count_if(rows, has));
+    if (both > 0 && 2 * both > count_flags(*labels))
       return fmt::format(". {} of {}'s are in it, too", grouped(both), other.name);
   }
   return {};

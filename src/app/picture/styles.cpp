@@ -100,7 +100,7 @@ Flags kept_if_equal(const Flags& before, const Flags& fresh) {
 
 }  // namespace
 
-Styles styled(const StyleOrder& order, const Styles& before, LabelCache* labels) {
+Styles styled(const StyleOrder& order, const Styles& before, LabelCache* labels, const Job& job) {
   const std::size_t n = order.cloud->size();
   const Document& document = order.document;
   FrameStyle style;
@@ -139,7 +139,7 @@ Styles styled(const StyleOrder& order, const Styles& before, LabelCache* labels)
   Styles out;
   out.active_labels = active;
   if (order.floaters) {
-    Selection found = floaters(*order.cloud, order.graph->get(), *active);
+    Selection found = floaters(*order.cloud, order.graph->get(job), *active);
     out.floaters = count_flags(found);
     style.highlight = make_flags(std::move(found));
   } else if (order.range) {

@@ -52,6 +52,7 @@ struct Styles {
 
 // Makes the styles. before: the last result. If the set of shown Gaussians has not changed, it stays the same
 // shared array, so that the picture need not be rasterised again. labels: cache of the calling thread.
-Styles styled(const StyleOrder& order, const Styles& before, LabelCache* labels);
+// Throws Error if the search for neighbours, for floaters, is cancelled.
+Styles styled(const StyleOrder& order, const Styles& before, LabelCache* labels, const Job& job = {});
 
 }  // namespace splatcut

@@ -94,7 +94,7 @@ void Clicks::perform(const RemoveStroke& c) {
   ws_.require_scene();
   Document after = ws_.document();
   const std::string message = edit(&after, c, ws_.context());
-  take_back_sharing(ws_.history, c, &after, ws_.gaussians());
+  take_back_sharing(ws_.history, c, &after, ws_.gaussians(), &ws_.labels);
   edits_.push(c.title(), std::move(after), {}, message);
 }
 
@@ -360,7 +360,7 @@ void Clicks::leave_what_came() {
     if (came.empty()) continue;
     const auto hits = [&] { return hits_of(object, viewport_.drawn_part()); };
     return leave_in_history(&ws_.history, object,
-                            left_what_came(document, object, came, hits, ws_.gaussians()), came);
+                            left_what_came(document, object, came, hits, ws_.gaussians(), &ws_.labels), came);
   }
 }
 

@@ -27,7 +27,8 @@ bool Exports::have_all() const {
   return std::ranges::all_of(document.objects, [&](const ObjectItem& item) {
     const Flags now = ws_.labels.labels(document, item, ws_.gaussians());
     const auto then = exported_.find(item.id);
-    return count_flags(*now) == 0 || (then != exported_.end() && *then->second.labels == *now);
+    return ws_.gaussians_of(item.id) == 0 ||
+           (then != exported_.end() && (then->second.labels == now || *then->second.labels == *now));
   });
 }
 
@@ -105,7 +106,7 @@ void Exports::perform(const SaveSnapshot& c) {
        before = viewport_.styles(), limits = viewport_.draw_limits()](const Job& job) {
         job.progress("drawing", 0);
         LabelCache labels;
-        const Styles styles = styled(order, before, &labels);
+        const Styles styles = styled(order, before, &labels, job);
         const auto& clean = styles.clean[0];
         const Image<Rgba8> picture =
             capture(clean ? clean->cloud : *order.cloud, camera, clean ? nullptr : styles.shown[0], limits,

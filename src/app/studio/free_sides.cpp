@@ -32,31 +32,32 @@ void FreeSides::frame() {
   if (offer && in_scene && offer->object == ws_.document().active && offer->from == camera.pose())
     return camera.frame(offer->side);
   const ObjectItem* object = ws_.document().active_object();
-  const std::vector<glm::vec3> points = viewport_.object_points();
+  std::vector<glm::vec3> points = viewport_.object_points();
   if (!object || points.empty()) return;
   const Camera pane = viewport_.pane_camera();
-  const auto framed = [&](const glm::quat& rotation) { return camera.framing(points, pane, rotation); };
-  std::vector<Framing> sides = {framed(camera.pose().camera_from_world)};
-  for (const glm::quat& rotation : camera.directions_around()) sides.push_back(framed(rotation));
-  const CameraPose from = camera.pose();
+  const CameraController before = camera;  // frames from other sides, too, on the worker
+  const CameraPose from = before.pose();
+  std::vector<Framing> sides = {before.framing(points, pane, from.camera_from_world)};
   camera.frame(sides.front());
   if (!in_scene) return;
-  constexpr float kApart = 0.25f;  // of the object's size
-  const float apart = kApart * glm::length(robust_bounds(points).extent());
   const int height_px = std::max(1, kWidthPx * pane.height_px / std::max(1, pane.width_px));
-  ws_.tasks.submit(TaskKind::kSides, [this, from, sides, height_px, apart, id = object->id,
-                                      name = object->name, scene = ws_.scene,
+  ws_.tasks.submit(TaskKind::kSides, [this, before, from, points = std::move(points), pane, sides, height_px,
+                                      id = object->id, name = object->name, scene = ws_.scene,
                                       labels = ws_.labels.labels(ws_.document(), *object, ws_.gaussians())](
-                                         const Job& job) {
+                                         const Job& job) mutable {
+    constexpr float kApart = 0.25f;  // of the object's size
+    const float apart = kApart * glm::length(robust_bounds(points).extent());
     constexpr double kMuch = 0.25, kBetter = 0.15, kAsGood = 0.03;
     constexpr double kSeen = 0.5, kOutOfSight = 0.9;
     const auto hides = [&](const CameraPose& pose) {
       return hidden_share(*scene, *labels, camera_at(pose, kWidthPx, height_px), apart, job);
     };
-    std::vector<double> hidden;
-    for (const Framing& side : sides) {
-      hidden.push_back(hides(side.pose));
-      if (job.cancelled() || hidden.front() < kMuch) return;
+    std::vector<double> hidden = {hides(sides.front().pose)};
+    if (job.cancelled() || hidden.front() < kMuch) return;
+    for (const glm::quat& rotation : before.directions_around()) {
+      sides.push_back(before.framing(points, pane, rotation));
+      hidden.push_back(hides(sides.back().pose));
+      if (job.cancelled()) return;
     }
     const double least = std::ranges::min(hidden);
     if (least > hidden.front() - kBetter) return;

@@ -143,15 +143,18 @@ WorkView SavedWork::seen() const {
   return {viewport_.camera().kept_pose(), ws_.view.display, ws_.view.hidden, cuts_.doubtful_sides()};
 }
 
-Image<Rgb8> SavedWork::small_picture() const {
+// Shading costs as much as a frame, so the worker does it: of the frame that is shown now.
+std::function<Image<Rgb8>()> SavedWork::small_picture() const {
   const FrameResult* shown = viewport_.picture();
   if (!shown || shown->scene != ws_.scene->serial || shown->frames.empty() || shown->owners.empty())
-    return {};
+    return [] { return Image<Rgb8>(); };
   FrameStyle style = viewport_.style(0);
   style.highlight = nullptr;  // of the pointer: no work
   if (style.owner && style.owner->size() != ws_.gaussians()) style.owner = nullptr;  // of the files before
   if (style.heat && style.heat->size() != ws_.gaussians()) style.heat = nullptr;
-  return work_picture(shaded(*shown->frames.front(), style, shown->owners.front().get()));
+  return [style, frame = shown->frames.front(), owners = shown->owners.front()] {
+    return work_picture(shaded(*frame, style, owners.get()));
+  };
 }
 
 TaskThread::Work SavedWork::autosaving() {
@@ -160,7 +163,7 @@ TaskThread::Work SavedWork::autosaving() {
           picture = small_picture(), saved_as = work_path_](const Job&) {
     const auto start = std::chrono::steady_clock::now();
     write_work_file(path, *scene, document, view, steps, saved_as);
-    write_work_picture(path, picture);
+    write_work_picture(path, picture());
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
     ws_.writes.post([this, restored, seconds = took.count()] {
       written_in_s_ = seconds;

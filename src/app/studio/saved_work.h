@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <set>
 #include <string>
@@ -46,7 +47,8 @@ class SavedWork {
 
  private:
   TaskThread::Work autosaving();
-  Image<Rgb8> small_picture() const;             // of what the view shows; empty: nothing is drawn yet
+  // Makes the picture of what the view shows, on any thread; an empty one if nothing is drawn yet.
+  std::function<Image<Rgb8>()> small_picture() const;
   WorkView seen() const;                         // what the window shows
   bool differs() const;                          // the document does from the saved one
   bool is_work(const Document& document) const;  // it, or the scene's files, are more than a scene as opened

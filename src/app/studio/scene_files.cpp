@@ -352,8 +352,10 @@ void SceneFiles::update() {
 // What is clicked is prepared when it is clicked or pointed at; a scene itself, to be moved by alone.
 void SceneFiles::start_preparing() {
   if (ws_.coarse || ws_.gaussians() < kCoarseFrom) return;
-  ws_.tasks.submit(TaskKind::kPrepare, [this, scene = ws_.scene](const Job&) {
-    ws_.tasks.post([this, scene, coarse = std::make_shared<const CoarseCloud>(coarse_cloud(*scene->cloud))] {
+  ws_.tasks.submit(TaskKind::kPrepare, [this, scene = ws_.scene](const Job& job) {
+    const auto coarse = std::make_shared<const CoarseCloud>(coarse_cloud(*scene->cloud, job));
+    if (job.cancelled()) return;
+    ws_.tasks.post([this, scene, coarse] {
       if (scene == ws_.scene) ws_.coarse = coarse;
     });
   });

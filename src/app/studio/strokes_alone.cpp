@@ -9,9 +9,9 @@ namespace splatcut {
 bool Clicks::has_all(const Flags& seen) const {
   const ObjectItem* object = ws_.document().active_object();
   if (!object || !seen || cuts_.comes(*object)) return false;
-  const std::vector<std::uint8_t> labels = labels_of(ws_.document(), *object, ws_.gaussians());
-  for (std::size_t g = 0; g < labels.size(); ++g)
-    if ((*seen)[g] && !labels[g]) return false;
+  const Flags labels = ws_.labels.labels(ws_.document(), *object, ws_.gaussians());
+  for (std::size_t g = 0; g < labels->size(); ++g)
+    if ((*seen)[g] && !(*labels)[g]) return false;
   return true;
 }
 

@@ -203,10 +203,20 @@ ToolOverlay Studio::overlay() const {
   return ws_.tools.overlay(ws_.view, viewport_.pane_camera(), viewport_.pixels_per_point());
 }
 
-std::vector<std::uint8_t> Studio::labels(ObjectId object) const {
+const std::vector<std::uint8_t>& Studio::labels(ObjectId object) const {
+  static const std::vector<std::uint8_t> kNone;
   const ObjectItem* item = document().find(object);
-  if (!item || !ws_.scene) return {};
-  return *ws_.labels.labels(document(), *item, ws_.gaussians());
+  return item && ws_.scene ? *ws_.labels.labels(document(), *item, ws_.gaussians()) : kNone;
+}
+
+bool Studio::is_without_others(ObjectId object) const {
+  const ObjectItem* item = document().find(object);
+  if (!item || !ws_.scene) return false;
+  const std::uint64_t serial = history().serial();
+  if (without_others_.object != object || without_others_.serial != serial)
+    without_others_ = {object, serial,
+                       splatcut::is_without_others(document(), *item, ws_.gaussians(), &ws_.labels)};
+  return without_others_.is_without;
 }
 
 std::optional<CleanReport> Studio::clean_edges() const {

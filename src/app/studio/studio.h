@@ -83,8 +83,11 @@ class Studio {
   const std::deque<Message>& messages() const { return ws_.messages; }
   std::vector<UiRequest> take_ui_requests() { return std::exchange(ws_.ui_requests, {}); }
   double clock_s() const { return ws_.clock_s; }
-  std::vector<std::uint8_t> labels(ObjectId object) const;  // final labels; empty: there is no such object
+  // Final labels, as long as the document stays as it is; empty: there is no such object.
+  const std::vector<std::uint8_t>& labels(ObjectId object) const;
+  LabelCache* label_cache() const { return &ws_.labels; }
   std::size_t gaussians_of(ObjectId object) const { return ws_.gaussians_of(object); }
+  bool is_without_others(ObjectId object) const;  // looked for once for each state of the document
   const SeenViews& seen_views() const { return seen_views_; }
   const CleanEdges& finish() const { return clean_edges_; }
   std::optional<CleanReport> clean_edges(ObjectId object) const;  // none: not known yet
@@ -154,8 +157,8 @@ class Studio {
   void step_camera(int direction);
   void hold(const Modifiers& modifiers);
   // What a press means depends on what is shown: from a change of display on, the pointer's events wait until
-  // the panes follow it.
-  void pointer(std::function<void()> event);
+  // the panes follow it. What only moves the view or the pointer does not, where there is one pane all along.
+  void pointer(std::function<void()> event, bool moves_alone);
   Flight flight() const;
   void press_at(const glm::vec2& pixel, PointerButton button, const Modifiers& modifiers);
   void move_to(const glm::vec2& pixel, const Modifiers& modifiers);
@@ -182,6 +185,12 @@ class Studio {
   std::vector<std::function<void()>> held_pointer_;
   Held held_actions_;
   double brush_repeated_s_ = -1e9;
+  struct WithoutOthers {  // the last answer of is_without_others()
+    ObjectId object = 0;
+    std::uint64_t serial = 0;
+    bool is_without = false;
+  };
+  mutable WithoutOthers without_others_;
   std::optional<glm::vec2> mouse_px_;         // place of the mouse; none: it is beside the picture
   std::optional<glm::vec2> cursor_px_;        // see cursor_px()
   std::optional<glm::vec2> cursor_click_px_;  // place of the last Enter: one more there is a double-click

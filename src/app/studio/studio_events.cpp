@@ -78,42 +78,49 @@ Flight Studio::flight() const {
   return flight;
 }
 
-void Studio::pointer(std::function<void()> event) {
+void Studio::pointer(std::function<void()> event, bool moves_alone) {
   if (!ws_.scene) return;
-  if (held_pointer_.empty() && viewport_.display_current())
+  const DisplayMode comes = ws_.view.display;
+  const bool one_pane =
+      viewport_.panes() == 1 && comes != DisplayMode::kSideBySide && comes != DisplayMode::kBeforeAfter;
+  if (held_pointer_.empty() && (viewport_.display_current() || (moves_alone && one_pane)))
     event();
   else
     held_pointer_.push_back(std::move(event));
 }
 
 void Studio::press_at(const glm::vec2& pixel, PointerButton button, const Modifiers& modifiers) {
-  pointer([this, pixel, button, modifiers] {
+  const auto event = [this, pixel, button, modifiers] {
     viewport_.press_in(viewport_.pane_at(pixel));
     run_all(ws_.tools.press(viewport_.in_pane(pixel), button, modifiers,
                             viewport_.tool_context(viewport_.pane_at(pixel))));
-  });
+  };
+  pointer(event, button == PointerButton::kMiddle);
 }
 
 void Studio::move_to(const glm::vec2& pixel, const Modifiers& modifiers) {
   clicks_.pointer_inside(true);
-  pointer([this, pixel, modifiers] {
+  const auto event = [this, pixel, modifiers] {
     run_all(ws_.tools.move(viewport_.in_pane(pixel), modifiers,
                            viewport_.tool_context(viewport_.pane_at(pixel))));
-  });
+  };
+  pointer(event, !ws_.tools.dragging() || ws_.tools.moves_camera());
 }
 
 void Studio::release_at(const glm::vec2& pixel, PointerButton button, const Modifiers& modifiers) {
-  pointer([this, pixel, button, modifiers] {
+  const auto event = [this, pixel, button, modifiers] {
     run_all(ws_.tools.release(viewport_.in_pane(pixel), button, modifiers,
                               viewport_.tool_context(viewport_.pane_at(pixel))));
-  });
+  };
+  pointer(event, ws_.tools.moves_camera());
 }
 
 void Studio::double_click_at(const glm::vec2& pixel) {
-  pointer([this, pixel] {
+  const auto event = [this, pixel] {
     run_all(
         ws_.tools.double_click(viewport_.in_pane(pixel), viewport_.tool_context(viewport_.pane_at(pixel))));
-  });
+  };
+  pointer(event, false);
 }
 
 void Studio::pointer_pressed(const glm::vec2& pixel, PointerButton button, const Modifiers& modifiers) {

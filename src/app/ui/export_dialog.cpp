@@ -38,8 +38,8 @@ std::size_t gaussians_in_one(UiContext& ui) {
   const std::uint64_t serial = ui.studio.history().serial();
   ExportChoice& choice = ui.state.exporting;
   if (std::exchange(choice.counted_at, serial) != serial)
-    choice.in_one = count_flags(
-        exported(ui.studio.document(), 0, ExportWhat::kOneFile, ui.studio.scene()->cloud->size()));
+    choice.in_one = count_flags(exported(ui.studio.document(), 0, ExportWhat::kOneFile,
+                                         ui.studio.scene()->cloud->size(), ui.studio.label_cache()));
   return choice.in_one;
 }
 
@@ -268,9 +268,11 @@ const FormatPlan& export_plan(UiContext& ui, std::size_t gaussians) {
       rows.insert(rows.end(), some.begin(), some.end());
     };
     if (choice.what == ExportWhat::kAllObjects)
-      visit_objects(document, scene.cloud->size(), [&](const ObjectToSave& o) { add(o.labels); });
+      visit_objects(
+          document, scene.cloud->size(), [&](const ObjectToSave& o) { add(o.labels); },
+          ui.studio.label_cache());
     else
-      add(exported(document, document.active, choice.what, scene.cloud->size()));
+      add(exported(document, document.active, choice.what, scene.cloud->size(), ui.studio.label_cache()));
     const std::size_t own = rows.size();
     rows.resize(std::min(own, gaussians));
     choice.plan = choice.format.plan(*scene.scene, rows, moved);

@@ -61,7 +61,7 @@ void object_menu(UiContext& ui, const ObjectItem& object) {
   merge_menu(ui, object, locked);
   if (entry("Split into connected parts", first_of({locked, empty}))) ui.ask(SplitObject{object.id});
   if (entry("Separate in place", empty)) ui.ask(SeparateObject{object.id});
-  const bool without = is_without_others(ui.studio.document(), object, ui.studio.scene()->cloud->size());
+  const bool without = ui.studio.is_without_others(object.id);
   if (entry("Without the other objects", locked, without)) ui.ask(LeaveToOthers{object.id, !without});
   ImGui::Separator();
   const bool active = object.id == ui.studio.document().active;
@@ -117,8 +117,9 @@ void object_row(UiContext& ui, const ObjectItem& object) {
         ui.state.new_name = object.name;
       }
     }
-    tooltip(fmt::format("{} Gaussians. Double-click renames, right-click shows more.",
-                        grouped(ui.studio.gaussians_of(object.id))));
+    if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))  // else nobody counts them
+      tooltip(fmt::format("{} Gaussians. Double-click renames, right-click shows more.",
+                          grouped(ui.studio.gaussians_of(object.id))));
     if (ImGui::BeginPopupContextItem("menu")) {
       object_menu(ui, object);
       ImGui::EndPopup();

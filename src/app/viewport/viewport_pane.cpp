@@ -11,6 +11,7 @@
 #include "app/ui/widgets.h"
 #include "app/viewport/on_screen.h"
 #include "app/viewport/viewport_pane.h"
+#include "segment/finish/shown_part.h"
 
 namespace splatcut {
 
@@ -58,14 +59,12 @@ Covered covered_by_message(const UiContext& ui, const UiRect& picture) {
   out.marks = ui.state.badges;
   for (const StrokeMark& mark : studio.viewport().marks()) out.marks.push_back(screen_of(mark.at_px));
   // As they are by now: the picture may still show those before the message.
-  const std::vector<std::uint8_t> labels = studio.labels(studio.document().active);
+  const std::vector<std::uint32_t> rows = labelled_rows(studio.labels(studio.document().active));
   const GaussianCloud& cloud = *studio.scene()->cloud;
-  if (labels.size() != cloud.size()) return out;
   const Camera camera = studio.viewport().pane_camera();
-  const std::size_t step = 1 + studio.gaussians_of(studio.document().active) / kMostCovered;
-  for (std::size_t g = 0, counted = 0; g < labels.size() && out.object.size() < kMostCovered; ++g) {
-    if (!labels[g] || counted++ % step != 0) continue;
-    const glm::vec3 seen = camera.camera_from_world(cloud.position[g]);
+  const std::size_t step = 1 + rows.size() / kMostCovered;
+  for (std::size_t i = 0; i < rows.size() && out.object.size() < kMostCovered; i += step) {
+    const glm::vec3 seen = camera.camera_from_world(cloud.position[rows[i]]);
     if (!(seen.z > studio.viewport().draw_limits().near_plane)) continue;
     out.object.push_back(screen_of(camera.pixel_from_camera(seen)));
   }

@@ -75,6 +75,7 @@ void CutJobs::reset() {
   doubts_said_.clear();
   seen_whole_.clear();
   sides_said_.clear();
+  labels_before_.clear();
 }
 
 void CutJobs::update() {

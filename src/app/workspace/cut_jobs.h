@@ -121,6 +121,8 @@ class CutJobs {
   std::string so_already_;                      // key, see note_so_already()
   std::map<ObjectId, std::vector<std::string>> doubts_said_;  // after the last cut
   std::map<ObjectId, std::string> sides_said_;                // the same, of the pictures of its sides
+  mutable LabelCache labels_before_;  // of note_before(), of the object that it was last asked for
+  mutable ObjectId labelled_before_ = 0;
   std::uint64_t next_card_serial_ = 1, started_ = 0, done_ = 0, failed_ = 0;
 };
 

@@ -54,7 +54,9 @@ void CutJobs::note_before(Order* order) const {
     return;
   }
   const ObjectItem& item = *before->find(order->object);
-  order->before = make_flags(labels_of(*before, item, ws_.gaussians()));
+  // Every step asks for them again, also a new colour.
+  if (std::exchange(labelled_before_, item.id) != item.id) labels_before_.clear();
+  order->before = labels_before_.labels(*before, item, ws_.gaussians());
   order->key_before = item.cut_key;
 }
 

@@ -228,8 +228,8 @@ void Viewport::request_styles() {
   styles_on_the_way_ = true;
   const auto failed = [this] { styles_on_the_way_ = false; };
   ws_.quick.submit({TaskKind::kStyle, failed}, [this, order = style_order(), before = styles_,
-                                                labels = style_labels_, scene = ws_.scene](const Job&) {
-    ws_.quick.post([this, scene, sought = order.floaters, styles = styled(order, before, labels.get())] {
+                                                labels = style_labels_, scene = ws_.scene](const Job& job) {
+    ws_.quick.post([this, scene, sought = order.floaters, styles = styled(order, before, labels.get(), job)] {
       if (scene != ws_.scene) return;
       styles_on_the_way_ = false;
       styles_ = styles;

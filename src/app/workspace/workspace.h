@@ -57,7 +57,7 @@ struct Workspace {
   const Document& document() const { return history.now(); }
   std::size_t gaussians() const { return scene ? scene->cloud->size() : 0; }
   std::size_t gaussians_of(ObjectId object) const;  // number of its Gaussians; 0: there is no such object
-  EditContext context() const { return {*scene->cloud, graph.get(), {}, history.left()}; }
+  EditContext context() const { return {*scene->cloud, graph.get(), {}, history.left(), &labels}; }
   void require_scene() const;  // throws Error without one
   void say(Message::Kind kind, std::string text);
   // What comes by itself, not as the answer to what was done: beside the message that is shown.

@@ -94,20 +94,24 @@ void store(const GaussianCloud& fine, const Reduced& group, std::size_t at, Coar
 
 }  // namespace
 
-CoarseCloud coarse_cloud(const GaussianCloud& fine) {
+CoarseCloud coarse_cloud(const GaussianCloud& fine, const Job& job) {
   const std::size_t groups = (fine.size() + kGroup - 1) / kGroup;
   const float largest = kLargestShare * glm::length(robust_bounds(fine.position, 0.9).extent());
   std::vector<Reduced> left(groups);
   tbb::parallel_for(std::size_t{0}, groups, [&](std::size_t i) {
-    left[i] = reduced(fine, i * kGroup, std::min(fine.size(), (i + 1) * kGroup), largest);
+    if (!job.cancelled())
+      left[i] = reduced(fine, i * kGroup, std::min(fine.size(), (i + 1) * kGroup), largest);
   });
+  if (job.cancelled()) return {};
   std::vector<std::size_t> first(groups + 1, 0);
   for (std::size_t i = 0; i < groups; ++i) first[i + 1] = first[i] + left[i].count;
   CoarseCloud out;
   out.cloud.resize(first.back(), fine.sh_degree);
   out.cloud.antialiased = fine.antialiased;
   out.stands_for.resize(first.back());
-  tbb::parallel_for(std::size_t{0}, groups, [&](std::size_t i) { store(fine, left[i], first[i], &out); });
+  tbb::parallel_for(std::size_t{0}, groups, [&](std::size_t i) {
+    if (!job.cancelled()) store(fine, left[i], first[i], &out);
+  });
   return out;
 }
 

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/job.h"
 #include "scene/cloud/gaussian_cloud.h"
 
 namespace splatcut {
@@ -21,6 +22,6 @@ struct CoarseCloud {
   std::vector<std::uint32_t> stands_for;  // per Gaussian of `cloud`, one of those it stands for
 };
 
-CoarseCloud coarse_cloud(const GaussianCloud& fine);
+CoarseCloud coarse_cloud(const GaussianCloud& fine, const Job& job = {});  // if cancelled: unspecified
 
 }  // namespace splatcut

@@ -2,11 +2,13 @@
 // again.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <fstream>
 #include <random>
 
 #include "app/document/document_edits.h"
+#include "app/document/label_cache.h"
 #include "core/json_file.h"
 #include "hands.h"
 #include "reopened.h"
@@ -45,7 +47,7 @@ double seconds_since(const std::chrono::steady_clock::time_point& start) {
 }  // namespace
 
 TEST_CASE("object labels: one of them is as all of them are, and a lock leaves each object what it had") {
-  constexpr std::size_t kFew = 40;
+  constexpr std::size_t kFew = 1037;  // passes take 16 at a time, and count 255: the last ones are fewer
   const GaussianCloud cloud = random_cloud(kFew, 1, 0);
   for (unsigned seed = 0; seed < 50; ++seed) {
     std::mt19937 random(seed);
@@ -65,6 +67,62 @@ TEST_CASE("object labels: one of them is as all of them are, and a lock leaves e
       if (a) REQUIRE(*a == *b);
     }
   }
+}
+
+TEST_CASE("object labels: flags of any number are counted") {
+  std::mt19937 random(1);
+  for (std::size_t n = 0; n < 1100; n += n < 40 ? 1 : 51) {
+    std::vector<std::uint8_t> flags(n);
+    for (std::uint8_t& flag : flags) flag = static_cast<std::uint8_t>(random() % 3);
+    CHECK(count_flags(flags) == n - static_cast<std::size_t>(std::ranges::count(flags, 0)));
+    CHECK(count_flags(std::vector<std::uint8_t>(n, 255)) == n);
+  }
+}
+
+// What a new object leaves: all that others have but those that its first click is on, and their parts.
+TEST_CASE("object labels: the first click of an object leaves what others have, known from before or not") {
+  constexpr std::size_t kFew = 523;
+  const GaussianCloud cloud = random_cloud(kFew, 1, 0);
+  LabelCache known;
+  int shared = 0, refused = 0;
+  for (unsigned seed = 0; seed < 40; ++seed) {
+    std::mt19937 random(seed);
+    Document document = some_objects(random, kFew);
+    document.objects[random() % 6].locked = true;
+    add_object(&document);
+    for (int i = 0; i < 8; ++i) {
+      const auto hit = random() % kFew;
+      const auto is_on = [&](const ObjectItem& object) { return has(document, object, hit); };
+      const auto is_shared = [&](const ObjectItem& object) {
+        for (const ObjectItem* o = &object; o && !o->locked; o = document.find(o->within))
+          if (is_on(*o)) return true;
+        return false;
+      };
+      const AddStroke stroke{{}, click({1, 1}, SeedLabel::kObject), {}, {static_cast<std::int32_t>(hit)}};
+      for (LabelCache* labels : {static_cast<LabelCache*>(nullptr), &known}) {
+        INFO(seed, " ", hit, " ", labels != nullptr);
+        Document now = document;
+        const EditContext context{.cloud = cloud, .labels = labels};
+        if (std::ranges::any_of(document.objects, [&](auto& o) { return o.locked && is_on(o); })) {
+          CHECK_THROWS(edit(&now, stroke, context));
+          ++refused;
+          continue;
+        }
+        edit(&now, stroke, context);
+        std::vector<std::uint8_t> expected(kFew, 0);
+        for (const ObjectItem& object : document.objects) {
+          const bool is_hit = is_shared(object);
+          shared += is_hit;
+          for (std::size_t g = 0; !is_hit && g < kFew; ++g) expected[g] |= has(document, object, g);
+        }
+        const Flags& left = now.active_object()->of_others;
+        REQUIRE((left != nullptr) == (count_flags(expected) > 0));
+        if (left) REQUIRE(*left == expected);
+      }
+    }
+  }
+  CHECK(shared > 50);
+  CHECK(refused > 50);
 }
 
 TEST_CASE("object labels: a click on what another object has shares with that one alone") {

@@ -38,6 +38,32 @@ TEST_CASE("hands: backgrounds go round, and the checker is behind the object alo
   CHECK(shows(backdrops()[0], hands.studio().document(), hands.studio().view()));
 }
 
+TEST_CASE("hands: the view turns at once while another display comes, and what is clicked waits for it") {
+  Hands hands;
+  Studio& studio = hands.studio();
+  const glm::vec2 from(200, 150);
+  const auto turned = [&](DisplayMode display, PointerButton button) {
+    ViewState view = studio.view();
+    view.display = display;
+    studio.apply(SetView{view});
+    REQUIRE_FALSE(studio.viewport().display_current());
+    const CameraPose before = studio.camera().pose();
+    studio.pointer_moved(from, {});
+    studio.pointer_pressed(from, button, {});
+    for (int i = 1; i < 4; ++i) studio.pointer_moved(from + 10.0f * glm::vec2(i, 0), {});
+    const bool at_once = studio.camera().pose() != before;
+    studio.pointer_released(from + glm::vec2(30, 0), button, {});
+    REQUIRE(hands.app.settle());
+    CHECK(studio.camera().pose() != before);
+    CHECK_FALSE(studio.tools().dragging());
+    return at_once;
+  };
+  CHECK(turned(DisplayMode::kIsolate, PointerButton::kMiddle));
+  CHECK_FALSE(turned(DisplayMode::kWhole, PointerButton::kLeft));  // it could be a click
+  CHECK_FALSE(turned(DisplayMode::kSideBySide, PointerButton::kMiddle));
+  CHECK_FALSE(turned(DisplayMode::kIsolate, PointerButton::kMiddle));  // from two panes
+}
+
 TEST_CASE("hands: a drag goes on in the pane where it was pressed") {
   Hands hands;
   hands.app.key('B');

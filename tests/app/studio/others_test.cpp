@@ -85,6 +85,37 @@ TEST_CASE("others: an object begun by a box leaves to the others what they have,
   CHECK(2 * shared(hands.labels(right), left) > count_flags(left));  // the box takes it without
 }
 
+TEST_CASE("others: whether an object is without the others is known anew after each step") {
+  Others hands;
+  Studio& studio = hands.studio();
+  hands.box(kAppleFrom, kAppleTo);
+  studio.apply(NewObject{});
+  hands.take_left_of(kOnApple, SetOperation::kAdd);
+  std::vector<bool> answers;
+  const auto ask = [&] {
+    hands.settle();
+    for (const ObjectItem& object : studio.document().objects) {
+      answers.push_back(is_without_others(studio.document(), object, studio.scene()->cloud->size()));
+      for (int again = 0; again < 2; ++again) CHECK(studio.is_without_others(object.id) == answers.back());
+    }
+  };
+  ask();
+  for (const bool leaves : {true, false, true}) {
+    studio.apply(LeaveToOthers{2, leaves});
+    ask();
+  }
+  for (const bool locked : {true, false}) {
+    studio.apply(LockObject{1, locked});
+    ask();
+  }
+  for (int i = 0; i < 5; ++i) {
+    studio.apply(Undo{});
+    ask();
+  }
+  CHECK(std::ranges::count(answers, true) > 2);
+  CHECK(std::ranges::count(answers, false) > 2);
+}
+
 TEST_CASE("others: a box that two others fill together, neither of them by more than half, leaves both out") {
   constexpr std::size_t kCount = 10;
   const GaussianCloud cloud = random_cloud(kCount, 1, 0);

@@ -63,6 +63,12 @@ TEST_CASE("coarse: another colour, a far one, and a much smaller one are kept as
   CHECK(coarse.cloud.size() == 5);
 }
 
+TEST_CASE("coarse: nothing is made once it is cancelled") {
+  std::stop_source stop;
+  stop.request_stop();
+  CHECK(coarse_cloud(random_cloud(5000, 1), {stop.get_token(), {}}).cloud.size() == 0);
+}
+
 TEST_CASE("coarse: a still life keeps its look, and the same bits on any number of threads") {
   StillLifeOptions options;
   options.gaussians = 300000;

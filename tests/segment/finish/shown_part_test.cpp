@@ -34,6 +34,19 @@ float largest_difference(const Image<glm::vec3>& a, const Image<glm::vec3>& b) {
 
 }  // namespace
 
+TEST_CASE("shown part: the rows of labels of any number") {
+  std::mt19937 random(1);
+  for (std::size_t n = 0; n < 80; ++n) {
+    std::vector<std::uint8_t> labels(n);
+    std::vector<std::uint32_t> expected;
+    for (std::uint32_t g = 0; g < n; ++g) {
+      labels[g] = random() % 8 == 0;
+      if (labels[g]) expected.push_back(g);
+    }
+    CHECK(labelled_rows(labels) == expected);
+  }
+}
+
 TEST_CASE("shown part: own pictures are those of the scene, whatever of the object's box is left out") {
   StillLifeOptions options;
   options.gaussians = 20000;
