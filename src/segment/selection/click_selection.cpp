@@ -7,6 +7,7 @@
 
 #include "segment/masks/mask_tools.h"
 #include "segment/selection/click_reach.h"
+#include "segment/selection/reached_leaves.h"
 #include "segment/selection/region_by_colour.h"
 #include "segment/selection/settled_by_colour.h"
 
@@ -174,7 +175,8 @@ bool ClickSelection::take(const LeafView& view, const glm::vec2& pixel, const St
   if (any_) {
     if (stroke.is_click()) like_px = pixels_by_colour(click, found, certain_px);
     certain = certain_leaves(view, certain_px);
-    std::vector<std::uint8_t> meant = leaves_changed(found, found.candidates.front());
+    std::vector<std::uint8_t> meant =
+        within_reach(click, selected_.object, leaves_changed(found, found.candidates.front()));
     if (!like_px.empty()) {
       const std::vector<std::uint8_t> like = certain_leaves(view, like_px);
       for (std::uint32_t l = 0; l < parts_.leaves; ++l) meant[l] |= like[l] && found.free[l];

@@ -127,6 +127,9 @@ struct MaskToPartsOptions {
 
 struct PartModel {
   // Whoever changes a value raises the version and says here what was searched on what.
+  // Version 21: a click on the rest leaves what lies apart and looks like the object
+  // (selection/reached_leaves.h); the limit of looks is set by hand (docs/clicks.md, "Within reach").
+  //
   // Version 20: Term::kAgain counts less where the click does not reach most of what would change; the half
   // is not searched (docs/clicks.md, "Once more").
   //
@@ -159,7 +162,7 @@ struct PartModel {
   // Version 9: what a first click means is fitted by `splatcut-lab fit` on the scenes of docs/clicks.md,
   // which shows the fit without each of the captures; what corrections mean is set by hand on the same
   // scenes, last the cost of a click on the rest that takes nearly all of the object (Term::kTakes).
-  static constexpr int kVersion = 20;
+  static constexpr int kVersion = 21;
   PartOptions parts;
   SelectionModel selection;
   MaskToPartsOptions of_mask;
