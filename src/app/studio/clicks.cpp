@@ -201,9 +201,10 @@ bool Clicks::on_last_dot() const {
 // Nothing without a hit under the pointer.
 std::optional<Clicks::HoverAsk> Clicks::hover_wanted() const {
   const bool by_colour = tool_of(ws_.view.tool).selects == Tool::Selects::kColours;
-  // On the dot of the last click the sizes of it are outlined, not what the next one changes.
+  // On the dot of the last click the sizes of it are outlined, not what the next one changes; and who has not
+  // moved since looks at what came of it.
   if (!pointer_inside_ || (by_colour ? !can_ask() : !asks_ahead()) || pointed_mark() ||
-      (on_last_dot() && sizes()))
+      (on_last_dot() && (sizes() || ws_.tools.at_last_click())))
     return {};
   // Who turned outlines off wants to see the result as it is.
   if (!ws_.view.outline && ws_.view.display != DisplayMode::kWhole) return {};
@@ -253,11 +254,7 @@ void Clicks::refresh_hover() {
     hover_.reset();
     return;
   }
-  if (hover_ && hover_->same_but_pixel(*ask) && hover_->pixel == ask->pixel) {
-    constexpr double kOutlinedSeconds = 2.5;  // then one looks at what lies under the outline
-    if (ws_.clock_s - outlined_s_ > kOutlinedSeconds) show_hover(nullptr, false);
-    return;
-  }
+  if (hover_ && hover_->same_but_pixel(*ask) && hover_->pixel == ask->pixel) return;
   constexpr float kElsewherePoints = 40;  // what was outlined there is not meant any more
   if (hover_ && glm::distance(hover_->pixel, ask->pixel) > kElsewherePoints * viewport_.pixels_per_point())
     show_hover(nullptr, false);
@@ -342,7 +339,6 @@ void Clicks::make_ready() {
 }
 
 void Clicks::show_hover(const Flags& change, bool rest) {
-  outlined_s_ = ws_.clock_s;
   constexpr Rgb8 kAdds{255, 255, 255}, kRemoves{225, 25, 60};
   viewport_.highlight(change, rest ? kRemoves : kAdds);
 }

@@ -133,7 +133,6 @@ class Clicks {
   glm::vec2 looked_px_{0};                  // pointer then
   std::optional<glm::vec2> looks_only_px_;  // pointer since look_ changed; none: it moved
   double hover_asked_s_ = 0;                // clock time at which hover_ was asked
-  double outlined_s_ = 0;  // clock time at which what it outlines was last shown or taken away
   Ready ready_;
   std::string declined_offer_;   // ClickMeanings::key of the offer that was declined last
   double stepped_s_ = -1e9;      // clock time of the last choice of a size, or click that found some
