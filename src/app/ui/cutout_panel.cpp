@@ -167,6 +167,8 @@ void cutout_panel(UiContext& ui) {
   smoothness_slider(ui, *object);
   if (const std::string reason = why_no_cutout(ui.studio, *object); !reason.empty())
     return wrapped_muted(ui, reason);
+  if (ui.studio.cuts().given_up(*object))
+    wrapped_muted(ui, "The last strokes were not computed: R computes them.");
   times(ui, ui.studio.cuts().run(object->id));
 }
 

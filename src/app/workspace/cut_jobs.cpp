@@ -42,6 +42,11 @@ bool CutJobs::comes(const ObjectItem& object) const {
   return is_stale(object, key) && !given_up_.contains(key);
 }
 
+bool CutJobs::given_up(const ObjectItem& object) const {
+  const std::string& key = ws_.history.keys(object).cut;
+  return is_stale(object, key) && given_up_.contains(key);
+}
+
 ObjectId CutJobs::next() const {
   for (const ObjectItem& object : ws_.document().objects)
     if (comes(object)) return object.id;

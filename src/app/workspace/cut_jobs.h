@@ -62,6 +62,7 @@ class CutJobs {
   void pause();  // stops the running cut; update() starts it again once no scene is being opened
   // Lets update() start a cut again that was given up.
   void want_again(const ObjectItem& object) { given_up_.erase(ws_.history.keys(object).cut); }
+  bool given_up(const ObjectItem& object) const;  // its cut was cancelled or failed: no labels come
 
  private:
   struct Known {
