@@ -144,6 +144,7 @@ CutJobs::Order CutJobs::order_for(const ObjectItem& object) const {
           object.id,
           cut_key(ws_.document(), object),
           object.colour,
+          std::make_shared<const Document>(ws_.document()),
           ws_.view.heat};
 }
 
@@ -245,8 +246,9 @@ CutRun CutJobs::cut_of(const Order& order, const Job& job, const OnSnapshot& on_
   if (result->outcome == Outcome::kCancelled || job.cancelled()) return done;
   done.result = result;
   done.total_ms = ms_since(start);
-  done.meanings = meanings_of(order.request, *result);
-  done.sizes = sizes_of(order.request, *result);
+  const KeptFromCuts kept{*order.session, kept_from_cuts(order)};
+  done.meanings = meanings_of(order.request, *result, kept, job);
+  done.sizes = sizes_of(order.request, *result, kept, job);
   done.doubts = doubts_of(*result);
   return done;
 }
@@ -260,8 +262,9 @@ void CutJobs::work(const Order& order, const Job& job) {
     const double first_mask_ms = shown == 0 ? ms_since(start) : 0;
     CutRun so_far;
     if (shown == 0) {
-      so_far.meanings = meanings_of(order.request, result);
-      so_far.sizes = sizes_of(order.request, result);
+      const KeptFromCuts kept{*order.session, kept_from_cuts(order)};
+      so_far.meanings = meanings_of(order.request, result, kept, job);
+      so_far.sizes = sizes_of(order.request, result, kept, job);
     }
     for (; shown < result.views.size(); ++shown)
       so_far.views.push_back(mask_card(result.views[shown], order.colour));
@@ -287,9 +290,12 @@ void CutJobs::look_around(const Order& order, const CutResult& result, const Job
       ++ws_.view_serial;
     });
   }
-  std::vector<ViewCard> cards = cards_of(order, result, job);
+  const CutResult own = as_object_has_it(order, result, job);
+  std::vector<ViewCard> cards = cards_of(order, own, job);
   if (job.cancelled()) return;
-  ws_.tasks.post([this, order, cards = std::move(cards)] { show_views(order, cards); });
+  ws_.tasks.post([this, order, labels = make_flags(own.labels), cards = std::move(cards)] {
+    show_views(order, labels, cards);
+  });
 }
 
 void CutJobs::show_snapshot(const Order& order, CutRun so_far, double first_mask_ms) {
@@ -418,10 +424,14 @@ std::string CutJobs::doubt_to_say(ObjectId object, const CutRun& run) {
   return doubt;
 }
 
-void CutJobs::show_views(const Order& order, std::vector<ViewCard> cards) {
+void CutJobs::show_views(const Order& order, const Flags& labels, std::vector<ViewCard> cards) {
   CutRun* run = order.scene == ws_.scene ? known_run(order.object, order.key) : nullptr;
   if (!run) return;
-  take_cards(run, order, run->result->labels, std::move(cards));
+  take_cards(run, order, *labels, std::move(cards));
+  if (*labels != run->result->labels) {
+    run->views_labels = labels;
+    run->doubts.clear();  // they are about all that was cut
+  }
   const ObjectItem* object = ws_.document().find(order.object);
   std::string& said = sides_said_[order.object];
   if (!add_doubt_of_sides(run)) return said.clear();
@@ -429,7 +439,7 @@ void CutJobs::show_views(const Order& order, std::vector<ViewCard> cards) {
   if (doubt == said && std::ranges::none_of(run->views, &ViewCard::doubt_of_stroke)) return;
   if (!object || object->cut_key != order.key || run->changed_nothing) return;
   const Flags now = ws_.labels.labels(ws_.document(), *object, ws_.gaussians());
-  if (*now != run->result->labels) return;  // they are drawn again, see renew_views()
+  if (*now != *labels) return;  // they are drawn again, see renew_views()
   said = doubt;
   ws_.say_also(Message::Kind::kInfo, object->name + ": " + doubt);
 }
