@@ -88,6 +88,8 @@ class Clicks {
     }
   };
 
+  std::string why_no_further(int steps) const;
+  int step_that_changes(int step) const;
   bool hits_anything(const AddStroke& c) const;
   std::string already_so(const AddStroke& c) const;
   bool has_all(const Flags& seen) const;

@@ -331,9 +331,9 @@ Flags CutJobs::labels_before(const Order& order, const Flags& shown) const {
                           : std::vector<std::uint8_t>(ws_.gaussians(), 0));
 }
 
-// What is said where the last step, one to the next size, took quite another extent. Not where the step
-// before was not computed: there may be sizes between.
-std::string CutJobs::leap_to(ObjectId object, const CutResult& result) const {
+// The size step of the object's last stroke before the last step, which changed it; none: that was another
+// step, or what was before it was not computed.
+std::optional<int> CutJobs::size_before(ObjectId object) const {
   const History& history = ws_.history;
   if (history.left() || !history.can_undo()) return {};
   const Document& last = history.entries()[history.cursor() - 1].document;
@@ -341,8 +341,18 @@ std::string CutJobs::leap_to(ObjectId object, const CutResult& result) const {
   if (!was || !was->cut || is_stale(last, *was)) return {};
   const Stroke *stroke_then = last_stroke(was->views), *stroke = last_stroke(is->views);
   const bool same_strokes = stroke_count(*was) == stroke_count(*is) && was->choice == is->choice;
-  if (!same_strokes || !stroke_then || std::abs(stroke->size_step - stroke_then->size_step) != 1) return {};
-  return leap_of_size(count_flags(*was->cut), count_flags(result.labels));
+  if (!same_strokes || !stroke_then || stroke->size_step == stroke_then->size_step) return {};
+  return stroke_then->size_step;
+}
+
+// What is said where the last step, one to the next size, took quite another extent. Not where the step
+// before was not computed: there may be sizes between.
+std::string CutJobs::leap_to(ObjectId object, const CutResult& result) const {
+  const std::optional<int> before = size_before(object);
+  const ObjectItem& now = *ws_.document().find(object);
+  if (!before || std::abs(last_stroke(now.views)->size_step - *before) != 1) return {};
+  const Document& last = ws_.history.entries()[ws_.history.cursor() - 1].document;
+  return leap_of_size(count_flags(*last.find(object)->cut), count_flags(result.labels));
 }
 
 void CutJobs::finish(const Order& order, CutRun run, const Flags& labels) {
@@ -386,6 +396,9 @@ void CutJobs::finish(const Order& order, CutRun run, const Flags& labels) {
                                           : "that changed nothing. Click nearer to what is wrong, come "
                                             "nearer, or draw over it"));
   }
+  if (!cut_already && size_before(order.object) && *before == *labels_now())
+    return ws_.say(Message::Kind::kInfo, fmt::format("{}: {}, as before: this size changes nothing here",
+                                                     name, gaussians_text(count_flags(*before))));
   const std::string changed = what_changed(*before, *labels_now(), seconds);
   const std::string box =
       *before == *labels_now() ? "" : added_by_box(ws_.history, order.object, ws_.context());

@@ -46,6 +46,8 @@ class CutJobs {
   // nothing else to do. What was asked for last is kept until the document asks for it, which then waits for
   // no cut. Called once a frame at most.
   void cut_ahead(std::span<const int> size_steps);
+  // True if it is known that the active object's last stroke takes the same at that size as at its own.
+  bool changes_nothing(int size_step) const;
   // Draws the active object's thumbnail of that number larger, if the worker has nothing else to do.
   void draw_larger(std::uint64_t card_serial);
   void looked_from(const Camera& camera);  // the person has: sides that it shows are looked at
@@ -102,6 +104,7 @@ class CutJobs {
   void finish(const Order& order, CutRun run, const Flags& labels);
   void show_views(const Order& order, const Flags& labels, std::vector<ViewCard> cards);
   void end(const std::string& given_up);
+  std::optional<int> size_before(ObjectId object) const;
   std::string leap_to(ObjectId object, const CutResult& result) const;
   std::string doubt_to_say(ObjectId object, const CutRun& run);
   void request_likelihood();

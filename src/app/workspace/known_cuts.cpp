@@ -63,6 +63,21 @@ void CutJobs::note_before(Order* order) const {
   order->key_before = item.cut_key;
 }
 
+bool CutJobs::changes_nothing(int size_step) const {
+  const ObjectItem* object = ws_.document().active_object();
+  if (!object || comes(*object)) return false;
+  ObjectItem other = *object;
+  last_stroke(&other.views)->size_step = size_step;
+  const std::string key = cut_key(ws_.document(), other);
+  const CutRun* run = known_run(object->id, key);
+  for (const Known& ahead : ahead_)
+    if (ahead.object == object->id && ahead.run.key == key) run = &ahead.run;
+  if (!run || !run->result) return false;
+  other.cut = make_flags(run->result->labels);
+  return labels_of(ws_.document(), other, ws_.gaussians()) ==
+         *ws_.labels.labels(ws_.document(), *object, ws_.gaussians());
+}
+
 // See KeptFromCuts.
 Flags CutJobs::kept_from_cuts(const Order& order) {
   ObjectItem object = *order.document->find(order.object);

@@ -465,3 +465,36 @@ TEST_CASE("clicks: outlines of sizes lead around what other objects keep") {
   }
   CHECK(right - left > 1.5f * width);
 }
+
+TEST_CASE("clicks: of a size that changes nothing that is said, and one that is known to be such is passed") {
+  for (const bool ahead : {false, true}) {
+    CAPTURE(ahead);
+    Artist artist(on_sample("mug", kOnMug), ahead ? working_ahead() : with_kept_scenes());
+    artist.click_on_it();
+    artist.app.key(key::kEscape);
+    for (int i = 0; i < 2; ++i) {  // then hands have said of each Gaussian whose it is
+      artist.studio().run(Action::kInvert);
+      REQUIRE(artist.app.settle());
+    }
+    const Clicks& clicks = artist.studio().clicks();
+    const Labels before = artist.labels();
+    const std::size_t first = clicks.size_wanted(), last = clicks.known_sizes()->count() - 1;
+    REQUIRE(first + 2 <= last);
+    const auto step = [&](int key) {
+      artist.app.key(key);
+      REQUIRE(artist.app.settle());
+      CHECK(artist.labels() == before);
+    };
+    step(key::kPageUp);
+    CHECK(clicks.size_wanted() == first + (ahead ? 2 : 1));
+    CHECK(artist.said().ends_with("as before: this size changes nothing here"));
+    CHECK(artist.studio().messages().back().kind == Message::Kind::kInfo);
+    const std::size_t size = clicks.size_wanted();
+    step(key::kPageDown);  // past all that are known to be the same
+    CHECK(clicks.size_wanted() + (ahead ? 3 : 2) <= size);
+    while (clicks.size_wanted() < last && !artist.said().starts_with("This is the largest size"))
+      step(key::kPageUp);
+    step(key::kPageUp);
+    CHECK(artist.said().starts_with("This is the largest size"));
+  }
+}
