@@ -143,7 +143,10 @@ std::string edit(Document* document, const EditSelection& command, const EditCon
   if (command.edit == SelectionEdit::kAll)
     return fmt::format("{}{} are selected{}. Ctrl+Z takes it back", kept.empty() ? "All " : "",
                        gaussians_text(count_flags(labels(*document, object, context))), kept);
-  return counted(*document, object, context) + kept;
+  const std::string now = counted(*document, object, context) + kept;
+  if (command.edit != SelectionEdit::kRemoveFloaters) return now;
+  const std::size_t gone = count_flags(before) - count_flags(labels(*document, object, context));
+  return gaussians_text(gone) + " that floated apart removed. " + now;
 }
 
 std::string edit(Document* document, const DeleteSelected&, const EditContext& context) {

@@ -347,11 +347,30 @@ bool looks_at(const Camera& camera, const ViewCard& card, const GaussianCloud& c
 
 namespace {
 
-std::vector<Borders> borders_in(const Camera& camera, const std::vector<Mask>& masks) {
+// Where the stroke's view shows those Gaussians; empty: nowhere.
+Mask kept_in_view(const StrokedView& view, const KeptFromCuts& kept, int width_px, int height_px,
+                  const Job& job) {
+  if (!kept.gaussians) return {};
+  RasterOptions options;
+  options.colour = false;
+  options.labels = *kept.gaussians;
+  if (view.seen) options.shown = *view.seen;
+  const Drawer drawer(*kept.session.scene().cloud, nullptr, &kept.session.blocks());
+  const RasterOutput drawn = drawer.draw(resized(view.camera, width_px, height_px), options, job);
+  return thresholded(drawn.label_share, 0.5f);
+}
+
+// masks: of one size.
+std::vector<Borders> borders_in(const StrokedView& view, const std::vector<Mask>& masks,
+                                const KeptFromCuts& kept, const Job& job) {
+  const int width_px = masks.front().width(), height_px = masks.front().height();
+  const Mask without = kept_in_view(view, kept, width_px, height_px, job);
+  const float factor = static_cast<float>(view.camera.width_px) / static_cast<float>(width_px);
   std::vector<Borders> all;
-  for (const Mask& mask : masks) {
+  for (Mask mask : masks) {
+    for (std::size_t i = 0; i < without.size(); ++i)
+      if (without.pixels()[i]) mask.pixels()[i] = 0;
     all.push_back(outlines(mask));
-    const float factor = static_cast<float>(camera.width_px) / static_cast<float>(mask.width());
     for (auto& border : all.back())
       for (glm::vec2& point : border) point *= factor;
   }
@@ -360,19 +379,21 @@ std::vector<Borders> borders_in(const Camera& camera, const std::vector<Mask>& m
 
 }  // namespace
 
-std::shared_ptr<const ClickMeanings> meanings_of(const CutRequest& request, const CutResult& result) {
+std::shared_ptr<const ClickMeanings> meanings_of(const CutRequest& request, const CutResult& result,
+                                                 const KeptFromCuts& kept, const Job& job) {
   const StrokedView* first = view_of(request, first_stroke(request.strokes));
   if (result.meanings.empty() || !first) return nullptr;
-  return std::make_shared<const ClickMeanings>(
-      ClickMeanings{key_of_first_stroke(request), first->camera, borders_in(first->camera, result.meanings)});
+  return std::make_shared<const ClickMeanings>(ClickMeanings{key_of_first_stroke(request), first->camera,
+                                                             borders_in(*first, result.meanings, kept, job)});
 }
 
-std::shared_ptr<const StrokeSizes> sizes_of(const CutRequest& request, const CutResult& result) {
+std::shared_ptr<const StrokeSizes> sizes_of(const CutRequest& request, const CutResult& result,
+                                            const KeptFromCuts& kept, const Job& job) {
   const StrokedView* last = view_of(request, last_stroke(request.strokes));
   if (result.size_masks.empty() || !last) return nullptr;
   return std::make_shared<const StrokeSizes>(StrokeSizes{key_of_last_stroke(request), result.size,
                                                          result.likeliest_size, last->camera,
-                                                         borders_in(last->camera, result.size_masks)});
+                                                         borders_in(*last, result.size_masks, kept, job)});
 }
 
 }  // namespace splatcut

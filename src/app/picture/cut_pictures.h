@@ -59,10 +59,20 @@ void keep_looks(const std::vector<ViewCard>& before, std::vector<ViewCard>* card
 // Whether the camera shows, from the card's side, what the card is in doubt of.
 bool looks_at(const Camera& camera, const ViewCard& card, const GaussianCloud& cloud);
 
-// Meanings of the first click, with outlines; null if the result has none yet.
-std::shared_ptr<const ClickMeanings> meanings_of(const CutRequest& request, const CutResult& result);
+// Gaussians that no cut gives the object, as others, hands or its whole keep them: outlines lead around what
+// shows them. Null: there are none.
+struct KeptFromCuts {
+  const Session& session;
+  Flags gaussians;
+};
 
-// Sizes of the last stroke, with outlines; null if it has none.
-std::shared_ptr<const StrokeSizes> sizes_of(const CutRequest& request, const CutResult& result);
+// Meanings of the first click, with outlines; null if the result has none yet. If cancelled, they must not be
+// used.
+std::shared_ptr<const ClickMeanings> meanings_of(const CutRequest& request, const CutResult& result,
+                                                 const KeptFromCuts& kept, const Job& job);
+
+// Sizes of the last stroke, with outlines; null if it has none. Cancelled: as above.
+std::shared_ptr<const StrokeSizes> sizes_of(const CutRequest& request, const CutResult& result,
+                                            const KeptFromCuts& kept, const Job& job);
 
 }  // namespace splatcut

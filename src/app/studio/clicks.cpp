@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include "app/document/selection.h"
 #include "app/picture/cut_sentences.h"
@@ -138,13 +139,27 @@ std::string Clicks::why_not_step(int steps) const {
   }
   const std::size_t size = size_wanted(), last = known->count() - 1;
   if (last == 0) return why_one_size(steps, last_takes_away(object->views));
-  if (last_takes_away(object->views)) {
-    if (steps > 0 && size >= last) return "The click takes no more away than this: right-click what is left";
-    if (steps < 0 && size == 0) return "The click takes no less away than this: click what shall come back";
-  }
-  if (steps > 0 && size >= last) return why_no_larger(ws_.gaussians_of(object->id), ws_.gaussians());
-  if (steps < 0 && size == 0) return "This is the smallest size: right-click what does not belong to it";
-  return {};
+  const bool at_end = steps > 0 ? size >= last : size == 0;
+  return at_end ? why_no_further(steps) : "";
+}
+
+std::string Clicks::why_no_further(int steps) const {
+  const ObjectItem& object = *ws_.document().active_object();
+  if (last_takes_away(object.views))
+    return steps > 0 ? "The click takes no more away than this: right-click what is left"
+                     : "The click takes no less away than this: click what shall come back";
+  return steps > 0 ? why_no_larger(ws_.gaussians_of(object.id), ws_.gaussians())
+                   : "This is the smallest size: right-click what does not belong to it";
+}
+
+// That many sizes on, past those that are known to change nothing here, as other strokes or objects hold what
+// they would take. 0: none is left.
+int Clicks::step_that_changes(int step) const {
+  const StrokeSizes& known = *known_sizes();
+  const auto likeliest = static_cast<int>(known.likeliest), now = static_cast<int>(size_wanted());
+  for (int size = now + step; size >= 0 && size < static_cast<int>(known.count()); size += step)
+    if (!cuts_.changes_nothing(size - likeliest)) return size - now;
+  return 0;
 }
 
 void Clicks::perform(const StepScale& c) {
@@ -159,10 +174,13 @@ void Clicks::perform(const StepScale& c) {
     step = std::clamp(step, -likeliest, sizes - 1 - likeliest);
   };
   if (known) limit();
-  const std::string message = edit(&after, c, ws_.context());
+  const bool next = known && std::abs(c.steps) == 1;  // of wheel and keys
+  const StepScale taken{next ? step_that_changes(c.steps) : c.steps};
+  if (taken.steps == 0 && c.steps != 0) throw Error("", why_no_further(c.steps));
+  const std::string message = edit(&after, taken, ws_.context());
   if (known) limit();
   stepped_s_ = ws_.clock_s;
-  edits_.push(c.title(ws_.document()), std::move(after), {}, message);
+  edits_.push(taken.title(ws_.document()), std::move(after), {}, message);
 }
 
 // Whether the next click is thought about: by a click tool, in a still picture, while no cut runs.
@@ -201,9 +219,10 @@ bool Clicks::on_last_dot() const {
 // Nothing without a hit under the pointer.
 std::optional<Clicks::HoverAsk> Clicks::hover_wanted() const {
   const bool by_colour = tool_of(ws_.view.tool).selects == Tool::Selects::kColours;
-  // On the dot of the last click the sizes of it are outlined, not what the next one changes.
+  // On the dot of the last click the sizes of it are outlined, not what the next one changes; and who has not
+  // moved since looks at what came of it.
   if (!pointer_inside_ || (by_colour ? !can_ask() : !asks_ahead()) || pointed_mark() ||
-      (on_last_dot() && sizes()))
+      (on_last_dot() && (sizes() || ws_.tools.at_last_click())))
     return {};
   // Who turned outlines off wants to see the result as it is.
   if (!ws_.view.outline && ws_.view.display != DisplayMode::kWhole) return {};
@@ -253,11 +272,7 @@ void Clicks::refresh_hover() {
     hover_.reset();
     return;
   }
-  if (hover_ && hover_->same_but_pixel(*ask) && hover_->pixel == ask->pixel) {
-    constexpr double kOutlinedSeconds = 2.5;  // then one looks at what lies under the outline
-    if (ws_.clock_s - outlined_s_ > kOutlinedSeconds) show_hover(nullptr, false);
-    return;
-  }
+  if (hover_ && hover_->same_but_pixel(*ask) && hover_->pixel == ask->pixel) return;
   constexpr float kElsewherePoints = 40;  // what was outlined there is not meant any more
   if (hover_ && glm::distance(hover_->pixel, ask->pixel) > kElsewherePoints * viewport_.pixels_per_point())
     show_hover(nullptr, false);
@@ -342,7 +357,6 @@ void Clicks::make_ready() {
 }
 
 void Clicks::show_hover(const Flags& change, bool rest) {
-  outlined_s_ = ws_.clock_s;
   constexpr Rgb8 kAdds{255, 255, 255}, kRemoves{225, 25, 60};
   viewport_.highlight(change, rest ? kRemoves : kAdds);
 }

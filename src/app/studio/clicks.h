@@ -88,6 +88,8 @@ class Clicks {
     }
   };
 
+  std::string why_no_further(int steps) const;
+  int step_that_changes(int step) const;
   bool hits_anything(const AddStroke& c) const;
   std::string already_so(const AddStroke& c) const;
   bool has_all(const Flags& seen) const;
@@ -133,7 +135,6 @@ class Clicks {
   glm::vec2 looked_px_{0};                  // pointer then
   std::optional<glm::vec2> looks_only_px_;  // pointer since look_ changed; none: it moved
   double hover_asked_s_ = 0;                // clock time at which hover_ was asked
-  double outlined_s_ = 0;  // clock time at which what it outlines was last shown or taken away
   Ready ready_;
   std::string declined_offer_;   // ClickMeanings::key of the offer that was declined last
   double stepped_s_ = -1e9;      // clock time of the last choice of a size, or click that found some

@@ -195,6 +195,8 @@ void Edits::change_all(const C& c) {
     } catch (const Error&) {  // an older or newer state has nothing to change
     }
   });
+  if constexpr (std::is_same_v<C, ActivateObject>)  // its strokes are to count
+    if (const ObjectItem* active = ws_.document().active_object()) cuts_.want_again(*active);
   ws_.say(Message::Kind::kInfo, message);
 }
 

@@ -5,6 +5,7 @@
 
 #include "app/picture/cut_sentences.h"
 #include "app/ui/panels.h"
+#include "app/ui/stage_words.h"
 #include "app/ui/widgets.h"
 
 namespace splatcut {
@@ -112,7 +113,7 @@ void stage_list(UiContext& ui, const CutRun& run) {
       list.AddRectFilled({at.x, at.y + 1}, {at.x + bar, at.y + ImGui::GetTextLineHeight() + 3},
                          packed(ui.theme.colour.accent, 0.16f), 3);
     ImGui::Indent(6);
-    ImGui::TextUnformatted(stage.name.c_str());
+    ImGui::TextUnformatted(words_of_stage(stage.name).c_str());
     const std::string ms = ui.state.steady ? "-" : ms_text(stage.ms);
     ImGui::SameLine(width - ImGui::CalcTextSize(ms.c_str()).x);
     muted_text(ui, ms);
@@ -127,8 +128,8 @@ void times(UiContext& ui, const CutRun* known) {
   const CutRun& run = *known;
   stage_list(ui, run);
   if (!run.running && run.total_ms > 0 && !ui.state.steady)
-    muted_text(ui,
-               fmt::format("first mask {}, cutout {}", ms_text(run.first_mask_ms), ms_text(run.total_ms)));
+    muted_text(ui, fmt::format("first shown after {}, done after {}", ms_text(run.first_mask_ms),
+                               ms_text(run.total_ms)));
 }
 
 bool is_shown(const std::string& doubt, bool thumbnails) {
@@ -166,6 +167,8 @@ void cutout_panel(UiContext& ui) {
   smoothness_slider(ui, *object);
   if (const std::string reason = why_no_cutout(ui.studio, *object); !reason.empty())
     return wrapped_muted(ui, reason);
+  if (ui.studio.cuts().given_up(*object))
+    wrapped_muted(ui, "The last strokes were not computed: R computes them.");
   times(ui, ui.studio.cuts().run(object->id));
 }
 
@@ -188,7 +191,7 @@ void cut_notes(UiContext& ui, bool thumbnails) {
   const ImVec2 at = ImGui::GetCursorScreenPos();
   ImGui::ProgressBar(static_cast<float>(progress.fraction), {-72, 0}, "");
   ImGui::GetWindowDrawList()->AddText({at.x + 8, at.y + 5}, packed(ui.theme.colour.text),
-                                      progress.stage.c_str());
+                                      words_of_stage(progress.stage).c_str());
   ImGui::SameLine();
   action_button(ui, Action::kCancel, "Cancel", false, -1);
 }

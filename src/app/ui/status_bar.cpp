@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "app/ui/panels.h"
+#include "app/ui/stage_words.h"
 #include "app/ui/widgets.h"
 
 namespace splatcut {
@@ -39,9 +40,10 @@ std::string status_text(const Studio& studio) {
   if (progress.kind == TaskKind::kReady && !progress.stage.empty()) return "Getting ready for a click";
   if (const std::string exporting = studio.exports().doing(); progress.busy && !exporting.empty()) {
     const bool before = progress.kind != TaskKind::kExport && progress.kind != TaskKind::kClean;
-    return exporting + (before && !progress.stage.empty() ? " (first: " + progress.stage + ")" : "");
+    return exporting +
+           (before && !progress.stage.empty() ? " (first: " + words_of_stage(progress.stage) + ")" : "");
   }
-  if (progress.busy) return progress.stage.empty() ? "Working" : "Working: " + progress.stage;
+  if (progress.busy) return progress.stage.empty() ? "Working" : "Working: " + words_of_stage(progress.stage);
   return studio.viewport().picture() ? "Ready" : "Drawing the first picture";
 }
 

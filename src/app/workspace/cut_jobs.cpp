@@ -42,6 +42,11 @@ bool CutJobs::comes(const ObjectItem& object) const {
   return is_stale(object, key) && !given_up_.contains(key);
 }
 
+bool CutJobs::given_up(const ObjectItem& object) const {
+  const std::string& key = ws_.history.keys(object).cut;
+  return is_stale(object, key) && given_up_.contains(key);
+}
+
 ObjectId CutJobs::next() const {
   for (const ObjectItem& object : ws_.document().objects)
     if (comes(object)) return object.id;
@@ -140,6 +145,7 @@ CutJobs::Order CutJobs::order_for(const ObjectItem& object) const {
           object.id,
           cut_key(ws_.document(), object),
           object.colour,
+          std::make_shared<const Document>(ws_.document()),
           ws_.view.heat};
 }
 
@@ -241,8 +247,9 @@ CutRun CutJobs::cut_of(const Order& order, const Job& job, const OnSnapshot& on_
   if (result->outcome == Outcome::kCancelled || job.cancelled()) return done;
   done.result = result;
   done.total_ms = ms_since(start);
-  done.meanings = meanings_of(order.request, *result);
-  done.sizes = sizes_of(order.request, *result);
+  const KeptFromCuts kept{*order.session, kept_from_cuts(order)};
+  done.meanings = meanings_of(order.request, *result, kept, job);
+  done.sizes = sizes_of(order.request, *result, kept, job);
   done.doubts = doubts_of(*result);
   return done;
 }
@@ -256,8 +263,9 @@ void CutJobs::work(const Order& order, const Job& job) {
     const double first_mask_ms = shown == 0 ? ms_since(start) : 0;
     CutRun so_far;
     if (shown == 0) {
-      so_far.meanings = meanings_of(order.request, result);
-      so_far.sizes = sizes_of(order.request, result);
+      const KeptFromCuts kept{*order.session, kept_from_cuts(order)};
+      so_far.meanings = meanings_of(order.request, result, kept, job);
+      so_far.sizes = sizes_of(order.request, result, kept, job);
     }
     for (; shown < result.views.size(); ++shown)
       so_far.views.push_back(mask_card(result.views[shown], order.colour));
@@ -283,9 +291,12 @@ void CutJobs::look_around(const Order& order, const CutResult& result, const Job
       ++ws_.view_serial;
     });
   }
-  std::vector<ViewCard> cards = cards_of(order, result, job);
+  const CutResult own = as_object_has_it(order, result, job);
+  std::vector<ViewCard> cards = cards_of(order, own, job);
   if (job.cancelled()) return;
-  ws_.tasks.post([this, order, cards = std::move(cards)] { show_views(order, cards); });
+  ws_.tasks.post([this, order, labels = make_flags(own.labels), cards = std::move(cards)] {
+    show_views(order, labels, cards);
+  });
 }
 
 void CutJobs::show_snapshot(const Order& order, CutRun so_far, double first_mask_ms) {
@@ -321,9 +332,9 @@ Flags CutJobs::labels_before(const Order& order, const Flags& shown) const {
                           : std::vector<std::uint8_t>(ws_.gaussians(), 0));
 }
 
-// What is said where the last step, one to the next size, took quite another extent. Not where the step
-// before was not computed: there may be sizes between.
-std::string CutJobs::leap_to(ObjectId object, const CutResult& result) const {
+// The size step of the object's last stroke before the last step, which changed it; none: that was another
+// step, or what was before it was not computed.
+std::optional<int> CutJobs::size_before(ObjectId object) const {
   const History& history = ws_.history;
   if (history.left() || !history.can_undo()) return {};
   const Document& last = history.entries()[history.cursor() - 1].document;
@@ -331,8 +342,18 @@ std::string CutJobs::leap_to(ObjectId object, const CutResult& result) const {
   if (!was || !was->cut || is_stale(last, *was)) return {};
   const Stroke *stroke_then = last_stroke(was->views), *stroke = last_stroke(is->views);
   const bool same_strokes = stroke_count(*was) == stroke_count(*is) && was->choice == is->choice;
-  if (!same_strokes || !stroke_then || std::abs(stroke->size_step - stroke_then->size_step) != 1) return {};
-  return leap_of_size(count_flags(*was->cut), count_flags(result.labels));
+  if (!same_strokes || !stroke_then || stroke->size_step == stroke_then->size_step) return {};
+  return stroke_then->size_step;
+}
+
+// What is said where the last step, one to the next size, took quite another extent. Not where the step
+// before was not computed: there may be sizes between.
+std::string CutJobs::leap_to(ObjectId object, const CutResult& result) const {
+  const std::optional<int> before = size_before(object);
+  const ObjectItem& now = *ws_.document().find(object);
+  if (!before || std::abs(last_stroke(now.views)->size_step - *before) != 1) return {};
+  const Document& last = ws_.history.entries()[ws_.history.cursor() - 1].document;
+  return leap_of_size(count_flags(*last.find(object)->cut), count_flags(result.labels));
 }
 
 void CutJobs::finish(const Order& order, CutRun run, const Flags& labels) {
@@ -376,6 +397,9 @@ void CutJobs::finish(const Order& order, CutRun run, const Flags& labels) {
                                           : "that changed nothing. Click nearer to what is wrong, come "
                                             "nearer, or draw over it"));
   }
+  if (!cut_already && size_before(order.object) && *before == *labels_now())
+    return ws_.say(Message::Kind::kInfo, fmt::format("{}: {}, as before: this size changes nothing here",
+                                                     name, gaussians_text(count_flags(*before))));
   const std::string changed = what_changed(*before, *labels_now(), seconds);
   const std::string box =
       *before == *labels_now() ? "" : added_by_box(ws_.history, order.object, ws_.context());
@@ -414,10 +438,14 @@ std::string CutJobs::doubt_to_say(ObjectId object, const CutRun& run) {
   return doubt;
 }
 
-void CutJobs::show_views(const Order& order, std::vector<ViewCard> cards) {
+void CutJobs::show_views(const Order& order, const Flags& labels, std::vector<ViewCard> cards) {
   CutRun* run = order.scene == ws_.scene ? known_run(order.object, order.key) : nullptr;
   if (!run) return;
-  take_cards(run, order, run->result->labels, std::move(cards));
+  take_cards(run, order, *labels, std::move(cards));
+  if (*labels != run->result->labels) {
+    run->views_labels = labels;
+    run->doubts.clear();  // they are about all that was cut
+  }
   const ObjectItem* object = ws_.document().find(order.object);
   std::string& said = sides_said_[order.object];
   if (!add_doubt_of_sides(run)) return said.clear();
@@ -425,7 +453,7 @@ void CutJobs::show_views(const Order& order, std::vector<ViewCard> cards) {
   if (doubt == said && std::ranges::none_of(run->views, &ViewCard::doubt_of_stroke)) return;
   if (!object || object->cut_key != order.key || run->changed_nothing) return;
   const Flags now = ws_.labels.labels(ws_.document(), *object, ws_.gaussians());
-  if (*now != run->result->labels) return;  // they are drawn again, see renew_views()
+  if (*now != *labels) return;  // they are drawn again, see renew_views()
   said = doubt;
   ws_.say_also(Message::Kind::kInfo, object->name + ": " + doubt);
 }

@@ -46,6 +46,8 @@ class CutJobs {
   // nothing else to do. What was asked for last is kept until the document asks for it, which then waits for
   // no cut. Called once a frame at most.
   void cut_ahead(std::span<const int> size_steps);
+  // True if it is known that the active object's last stroke takes the same at that size as at its own.
+  bool changes_nothing(int size_step) const;
   // Draws the active object's thumbnail of that number larger, if the worker has nothing else to do.
   void draw_larger(std::uint64_t card_serial);
   void looked_from(const Camera& camera);  // the person has: sides that it shows are looked at
@@ -60,6 +62,7 @@ class CutJobs {
   // The cut of that key is of a click that asks for what is so already: said if it changes nothing.
   void note_so_already(std::string key) { so_already_ = std::move(key); }
   void pause();  // stops the running cut; update() starts it again once no scene is being opened
+  bool given_up(const ObjectItem& object) const;  // its cut was cancelled or failed: no labels come
   // Lets update() start a cut again that was given up.
   void want_again(const ObjectItem& object) { given_up_.erase(ws_.history.keys(object).cut); }
 
@@ -77,10 +80,11 @@ class CutJobs {
     ObjectId object = 0;
     std::string key;
     Rgb8 colour{};
-    bool heat = false;         // the likelihood is shown
-    Flags before{};            // labels before the last stroke, see CutRun::views_before
-    std::string key_before{};  // key of the cut that gave them
-    std::uint64_t number = 0;  // the same key may be cut again
+    std::shared_ptr<const Document> document;  // that asks: what of the cut the object gets
+    bool heat = false;                         // the likelihood is shown
+    Flags before{};                            // labels before the last stroke, see CutRun::views_before
+    std::string key_before{};                  // key of the cut that gave them
+    std::uint64_t number = 0;                  // the same key may be cut again
   };
 
   const std::vector<ViewCard>* cards_known(ObjectId object, const std::string& key) const;
@@ -98,14 +102,17 @@ class CutJobs {
   void show_snapshot(const Order& order, CutRun so_far, double first_mask_ms);
   Flags labels_before(const Order& order, const Flags& shown) const;
   void finish(const Order& order, CutRun run, const Flags& labels);
-  void show_views(const Order& order, std::vector<ViewCard> cards);
+  void show_views(const Order& order, const Flags& labels, std::vector<ViewCard> cards);
   void end(const std::string& given_up);
+  std::optional<int> size_before(ObjectId object) const;
   std::string leap_to(ObjectId object, const CutResult& result) const;
   std::string doubt_to_say(ObjectId object, const CutRun& run);
   void request_likelihood();
   void recall();
   void renew_views();
   void note_before(Order* order) const;
+  static Flags kept_from_cuts(const Order& order);
+  static CutResult as_object_has_it(const Order& order, const CutResult& result, const Job& job);
   static std::vector<ViewCard> cards_of(const Order& order, const CutResult& result, const Job& job);
   void take_cards(CutRun* run, const Order& order, const std::vector<std::uint8_t>& labels,
                   std::vector<ViewCard> cards);

@@ -2,6 +2,7 @@
 // a hand has changed it, and the likelihood for the heat map.
 #include <algorithm>
 #include <iterator>
+#include <tuple>
 
 #include "app/picture/cut_pictures.h"
 #include "app/picture/cut_sentences.h"
@@ -21,7 +22,8 @@ void CutJobs::recall() {
   note_before(&order);
   const auto know = [this, order](CutRun run, std::vector<ViewCard> cards) {
     if (order.scene != ws_.scene || known_run(order.object, order.key)) return;
-    take_cards(&run, order, run.result ? run.result->labels : std::vector<std::uint8_t>(), std::move(cards));
+    take_cards(&run, order, run.views_labels ? *run.views_labels : std::vector<std::uint8_t>(),
+               std::move(cards));
     add_doubt_of_sides(&run);
     keep({order.object, std::move(run)});
     ++ws_.view_serial;
@@ -36,7 +38,10 @@ void CutJobs::recall() {
                      if (run.result->labels != *labels) return ws_.tasks.post(failed);
                      run.stages = run.result->stages;
                      run.total_ms = 0;  // nobody waited for it
-                     const std::vector<ViewCard> cards = cards_of(order, *run.result, job);
+                     const CutResult own = as_object_has_it(order, *run.result, job);
+                     if (own.labels != run.result->labels) run.doubts.clear();
+                     run.views_labels = make_flags(own.labels);
+                     const std::vector<ViewCard> cards = cards_of(order, own, job);
                      if (!job.cancelled()) ws_.tasks.post([know, run, cards] { know(run, cards); });
                    });
 }
@@ -60,7 +65,42 @@ void CutJobs::note_before(Order* order) const {
   order->key_before = item.cut_key;
 }
 
+bool CutJobs::changes_nothing(int size_step) const {
+  const ObjectItem* object = ws_.document().active_object();
+  if (!object || comes(*object)) return false;
+  ObjectItem other = *object;
+  last_stroke(&other.views)->size_step = size_step;
+  const std::string key = cut_key(ws_.document(), other);
+  const CutRun* run = known_run(object->id, key);
+  for (const Known& ahead : ahead_)
+    if (ahead.object == object->id && ahead.run.key == key) run = &ahead.run;
+  if (!run || !run->result) return false;
+  other.cut = make_flags(run->result->labels);
+  return labels_of(ws_.document(), other, ws_.gaussians()) ==
+         *ws_.labels.labels(ws_.document(), *object, ws_.gaussians());
+}
+
+// See KeptFromCuts.
+Flags CutJobs::kept_from_cuts(const Order& order) {
+  ObjectItem object = *order.document->find(order.object);
+  const bool gets_all = !object.of_others && !object.hand && object.within == 0;
+  if (gets_all) return nullptr;
+  object.cut = make_flags(std::vector<std::uint8_t>(order.scene->cloud->size(), 1));
+  std::vector<std::uint8_t> kept = labels_of(*order.document, object, object.cut->size());
+  for (std::uint8_t& flag : kept) flag = !flag;
+  return make_flags(std::move(kept));
+}
+
+// With what of it the object gets: others, hands and its whole keep some of a cut.
+CutResult CutJobs::as_object_has_it(const Order& order, const CutResult& result, const Job& job) {
+  ObjectItem object = *order.document->find(order.object);
+  object.cut = make_flags(result.labels);
+  const std::vector<std::uint8_t> own = labels_of(*order.document, object, result.labels.size());
+  return own == result.labels ? result : with_labels(*order.session, result, own, job);
+}
+
 std::vector<ViewCard> CutJobs::cards_of(const Order& order, const CutResult& result, const Job& job) {
+  if (count_flags(result.labels) == 0) return {};
   return picture_cards(*order.session, {order.request, order.settings, result, order.colour, order.before},
                        job);
 }
@@ -136,11 +176,11 @@ void CutJobs::renew_views() {
   const Flags now = ws_.labels.labels(ws_.document(), *object, ws_.gaussians());
   const bool as_cut = *now == run->result->labels;
   Order order = order_for(*object);
-  if (std::exchange(order.key, run->key) == run->key)  // else the last stroke was not cut
-    note_before(&order);
+  const bool is_of_strokes = std::exchange(order.key, run->key) == run->key;  // else the last was not cut
+  if (is_of_strokes) note_before(&order);
   const auto same = [](const Flags& a, const Flags& b) { return a == b || (a && b && *a == *b); };
-  if (run->views_drawn && (run->views_labels ? same(run->views_labels, now) : as_cut) &&
-      same(run->views_before, order.before)) {
+  const bool same_labels = run->views_labels ? same(run->views_labels, now) : as_cut;
+  if (run->views_drawn && same_labels && same(run->views_before, order.before)) {
     run->views_at = ws_.history.serial();  // compared once
     return;
   }
@@ -156,12 +196,21 @@ void CutJobs::renew_views() {
   };
   if (count_flags(*now) == 0) return show({});
   const auto failed = [show] { show({}); };  // not tried again
-  ws_.tasks.submit(
-      {TaskKind::kCut, failed}, [this, show, order, now, as_cut, result = run->result](const Job& job) {
-        const CutResult changed = as_cut ? *result : with_labels(*order.session, *result, *now, job);
-        std::vector<ViewCard> cards = cards_of(order, changed, job);
-        if (!job.cancelled()) ws_.tasks.post([show, cards = std::move(cards)] { show(cards); });
-      });
+  const auto outline = [this, order](const auto& meanings, const auto& sizes) {
+    CutRun* outlined = order.scene == ws_.scene ? known_run(order.object, order.key) : nullptr;
+    if (outlined) std::tie(outlined->meanings, outlined->sizes) = std::tie(meanings, sizes);
+  };
+  const bool outlines = is_of_strokes && !same_labels;  // what others keep may have changed
+  ws_.tasks.submit({TaskKind::kCut, failed}, [this, show, outline, outlines, order, now, as_cut,
+                                              result = run->result](const Job& job) {
+    const KeptFromCuts kept{*order.session, outlines ? kept_from_cuts(order) : nullptr};
+    const auto meanings = outlines ? meanings_of(order.request, *result, kept, job) : nullptr;
+    const auto sizes = outlines ? sizes_of(order.request, *result, kept, job) : nullptr;
+    if (outlines && !job.cancelled()) ws_.tasks.post([=] { outline(meanings, sizes); });
+    const CutResult changed = as_cut ? *result : with_labels(*order.session, *result, *now, job);
+    std::vector<ViewCard> cards = cards_of(order, changed, job);
+    if (!job.cancelled()) ws_.tasks.post([show, cards = std::move(cards)] { show(cards); });
+  });
 }
 
 void CutJobs::draw_larger(std::uint64_t card_serial) {

@@ -413,3 +413,88 @@ TEST_CASE("clicks: what is said of the wheel fits what the click changed") {
   CHECK(little >= 1);
   MESSAGE(little, " clicks changed little, ", much, " much");
 }
+
+namespace {
+
+// Object 1 has all but the mug, which is clicked for object 2: no size of that gives it more.
+void click_mug_where_another_has_the_rest(Artist& artist) {
+  artist.click_on_it();
+  artist.studio().run(Action::kInvert);
+  REQUIRE(artist.app.settle());
+  artist.studio().apply(NewObject{});
+  artist.click_on_it();
+  artist.app.key(key::kEscape);
+  REQUIRE(artist.app.settle());
+  REQUIRE(artist.object().id == 2);
+}
+
+}  // namespace
+
+TEST_CASE("clicks: outlines of sizes lead around what other objects keep") {
+  Artist artist(on_sample("mug", kOnMug));
+  click_mug_where_another_has_the_rest(artist);
+  const StrokeSizes* sizes = artist.studio().clicks().known_sizes();
+  REQUIRE(sizes);
+  REQUIRE(sizes->size + 2 < sizes->count());
+  glm::vec2 low(1e9f), high(-1e9f);
+  for (const Borders& borders : sizes->outlines)
+    for (const std::vector<glm::vec2>& border : borders)
+      for (const glm::vec2& point : border) {
+        low = glm::min(low, point);
+        high = glm::max(high, point);
+      }
+  const PixelRect mug = bounds(artist.shown(artist.labels()));
+  constexpr float kBlurPx = 6;  // they are found in smaller pictures
+  CHECK(low.x > static_cast<float>(mug.x0) - kBlurPx);
+  CHECK(low.y > static_cast<float>(mug.y0) - kBlurPx);
+  CHECK(high.x < static_cast<float>(mug.x1) + kBlurPx);
+  CHECK(high.y < static_cast<float>(mug.y1) + kBlurPx);
+
+  // With what the others keep given back, as far as the sizes reach.
+  const float width = high.x - low.x;
+  artist.studio().apply(LeaveToOthers{2, false});
+  artist.app.key(key::kPageUp);
+  artist.app.key(key::kPageUp);
+  REQUIRE(artist.app.settle());
+  sizes = artist.studio().clicks().known_sizes();
+  REQUIRE(sizes);
+  float left = 1e9f, right = -1e9f;
+  for (const glm::vec2& point : sizes->outlines.back().front()) {
+    left = std::min(left, point.x);
+    right = std::max(right, point.x);
+  }
+  CHECK(right - left > 1.5f * width);
+}
+
+TEST_CASE("clicks: of a size that changes nothing that is said, and one that is known to be such is passed") {
+  for (const bool ahead : {false, true}) {
+    CAPTURE(ahead);
+    Artist artist(on_sample("mug", kOnMug), ahead ? working_ahead() : with_kept_scenes());
+    artist.click_on_it();
+    artist.app.key(key::kEscape);
+    for (int i = 0; i < 2; ++i) {  // then hands have said of each Gaussian whose it is
+      artist.studio().run(Action::kInvert);
+      REQUIRE(artist.app.settle());
+    }
+    const Clicks& clicks = artist.studio().clicks();
+    const Labels before = artist.labels();
+    const std::size_t first = clicks.size_wanted(), last = clicks.known_sizes()->count() - 1;
+    REQUIRE(first + 2 <= last);
+    const auto step = [&](int key) {
+      artist.app.key(key);
+      REQUIRE(artist.app.settle());
+      CHECK(artist.labels() == before);
+    };
+    step(key::kPageUp);
+    CHECK(clicks.size_wanted() == first + (ahead ? 2 : 1));
+    CHECK(artist.said().ends_with("as before: this size changes nothing here"));
+    CHECK(artist.studio().messages().back().kind == Message::Kind::kInfo);
+    const std::size_t size = clicks.size_wanted();
+    step(key::kPageDown);  // past all that are known to be the same
+    CHECK(clicks.size_wanted() + (ahead ? 3 : 2) <= size);
+    while (clicks.size_wanted() < last && !artist.said().starts_with("This is the largest size"))
+      step(key::kPageUp);
+    step(key::kPageUp);
+    CHECK(artist.said().starts_with("This is the largest size"));
+  }
+}

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/document/document_edits.h"
+#include "app/document/words.h"
 #include "hands.h"
 #include "opened_sample.h"
 
@@ -213,10 +214,13 @@ TEST_CASE("hands: floaters are shown as long as there are any") {
   studio.apply(ShowFloaters{true});
   REQUIRE(app.settle());
   CHECK(studio.viewport().floaters_shown());
-  CHECK(studio.viewport().floater_count() > 0);
+  const std::size_t floaters = studio.viewport().floater_count();
+  CHECK(floaters > 0);
   studio.apply(EditSelection{SelectionEdit::kRemoveFloaters});
   REQUIRE(app.settle());
   CHECK_FALSE(studio.viewport().floaters_shown());
+  CHECK(
+      studio.messages().back().text.starts_with(gaussians_text(floaters) + " that floated apart removed. "));
 }
 
 TEST_CASE("far limit: what is within it is looked for once a view") {

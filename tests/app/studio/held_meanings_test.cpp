@@ -5,6 +5,7 @@
 #include <string>
 
 #include "artist.h"
+#include "hands.h"
 
 using namespace splatcut;
 using namespace splatcut::testing;
@@ -166,4 +167,27 @@ TEST_CASE("held meanings: I and F pressed with it are of what it takes") {
   artist.app.key('F');
   artist.settle();
   CHECK(artist.studio().camera().pose() == framed);
+}
+
+TEST_CASE("clicks: what Esc cancelled is computed once its object is chosen again, as a first click") {
+  Hands hands(false);
+  Studio& studio = hands.studio();
+  hands.app.click(hands.app.screen_of(kOnApple));
+  hands.app.key('3');
+  REQUIRE(studio.cutting());
+  hands.app.key(key::kEscape);
+  REQUIRE(hands.said().starts_with("Cancelled. The strokes stay"));
+  hands.app.key('N', {.ctrl = true});
+  REQUIRE(hands.app.settle());
+  CHECK(studio.document().active == 2);
+  const auto first = [&]() -> const ObjectItem& { return *studio.document().find(1); };
+  CHECK(studio.gaussians_of(1) == 0);
+  CHECK(studio.cuts().given_up(first()));
+  studio.apply(ActivateObject{1});
+  CHECK(hands.said() == "Object 1 is active");
+  CHECK_FALSE(studio.cuts().given_up(first()));
+  REQUIRE(hands.app.settle());
+  CHECK(studio.gaussians_of(1) > 0);
+  CHECK(stroke_count(first()) == 1);
+  CHECK(studio.clicks().known_sizes());
 }

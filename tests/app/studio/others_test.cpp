@@ -272,6 +272,32 @@ TEST_CASE("others: what a click would take is outlined without what the others h
   CHECK(iou_of(outlined, taken) > 0.6);
 }
 
+TEST_CASE("others: thumbnails show from the first what the object gets of its cut, not what others keep") {
+  Others hands;
+  Studio& studio = hands.studio();
+  const Labels apple = hands.labels(1);
+  studio.apply(NewObject{});
+  hands.click(kOnApple + glm::vec2(0, 75));  // the table
+  hands.settle();
+  const ObjectId table = studio.document().active;
+  const auto run = [&] { return studio.cuts().run(table); };
+  bool holds_apple = false;
+  for (const int step : {1, -1}) {
+    studio.apply(StepScale{step});
+    // Until the pictures of this cut are there, and no frame longer.
+    REQUIRE(hands.app.frames_until(
+        [&] { return !studio.cuts().comes(*studio.document().find(table)) && run() && run()->views_drawn; }));
+    const Labels drawn = run()->views_labels ? *run()->views_labels : run()->result->labels;
+    CHECK(drawn == hands.labels(table));
+    CHECK(shared(drawn, apple) == 0);
+    holds_apple |= shared(run()->result->labels, apple) > 0;
+    const std::uint64_t serial = run()->views.front().serial;
+    hands.settle();
+    if (step > 0) CHECK(run()->views.front().serial == serial);  // once is enough
+  }
+  CHECK(holds_apple);
+}
+
 TEST_CASE("others: what hands took and left to the others is the object's again where it is given back") {
   const ScratchFolder folder("given_back");
   Others hands;

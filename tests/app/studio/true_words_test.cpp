@@ -5,6 +5,7 @@
 
 #include "app/picture/cut_sentences.h"
 #include "app/ui/panels.h"
+#include "app/ui/stage_words.h"
 #include "app/ui/theme.h"
 #include "app/ui/widgets.h"
 #include "artist.h"
@@ -280,4 +281,19 @@ TEST_CASE("words: the outline that the pointer asks for while a new look is draw
   }
   rests_at(-14);
   CHECK(outlined());
+}
+
+TEST_CASE("words: while a click is computed the window says in plain words what is done") {
+  Hands hands(false);
+  hands.app.click(hands.app.screen_of(kOnApple));
+  std::string said;
+  REQUIRE(hands.app.frames_until([&] {
+    said += status_text(hands.studio()) + "\n";
+    return hands.studio().idle();
+  }));
+  for (const char* own :
+       {"first mask", "parts\n", "graph", "Working: views", "own views", "earlier strokes\n"})
+    CHECK(said.find(std::string("Working: ") + own) == std::string::npos);
+  CHECK(words_of_stage("first mask") == "looking for what is meant");
+  CHECK(words_of_stage("exporting") == "exporting");  // says it already
 }
