@@ -2,9 +2,9 @@
 //
 // In: a click in a view with its colour, and the leaves that it would make rest. Out: the same without those
 // that show mostly where no way leads to from the click within what would become rest, if that looks more
-// like what would stay of the object. Parts join what lies apart: a right click on grass at the foot of a
-// stone took a far corner of the stone along. What lies apart and looks alike goes all the same: the leaves
-// of a plant on both sides of its pot.
+// like what would stay of the object. Parts join what lies apart: a right click on a hedge took the foot of
+// the pillar before it along. What lies apart and looks alike goes all the same: the leaves of a plant on
+// both sides of its pot.
 //
 // Ways lead from pixel to pixel and across gaps of 4 pixels. The look is log_ratio_of_colours() of what lies
 // apart, of all of it at once: it stays below -0.5. That number was set by hand (docs/clicks.md, "Within
