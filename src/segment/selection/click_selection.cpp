@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "segment/masks/mask_tools.h"
 #include "segment/selection/click_reach.h"
@@ -175,8 +176,8 @@ bool ClickSelection::take(const LeafView& view, const glm::vec2& pixel, const St
   if (any_) {
     if (stroke.is_click()) like_px = pixels_by_colour(click, found, certain_px);
     certain = certain_leaves(view, certain_px);
-    std::vector<std::uint8_t> meant =
-        within_reach(click, selected_.object, leaves_changed(found, found.candidates.front()));
+    std::vector<std::uint8_t> meant = leaves_changed(found, found.candidates.front());
+    if (stroke.is_click()) meant = within_reach(click, selected_.object, std::move(meant));
     if (!like_px.empty()) {
       const std::vector<std::uint8_t> like = certain_leaves(view, like_px);
       for (std::uint32_t l = 0; l < parts_.leaves; ++l) meant[l] |= like[l] && found.free[l];
