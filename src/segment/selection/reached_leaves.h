@@ -6,8 +6,8 @@
 // the pillar before it along. What lies apart and looks alike goes all the same: the leaves of a plant on
 // both sides of its pot.
 //
-// Ways lead from pixel to pixel and across gaps of 4 pixels. The look is log_ratio_of_colours() of what lies
-// apart, of all of it at once: it stays below -0.5. That number was set by hand (docs/clicks.md, "Within
+// Ways lead from pixel to pixel and across gaps of 4 pixels. What lies apart looks more like the object where
+// log_ratio_of_colours() of all of it is below -0.5, a number that was set by hand (docs/clicks.md, "Within
 // reach"). Leaves that the view does not show follow, and so does all where the view has no colour. Cost: a
 // few passes over the view's pixels.
 #pragma once
